@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: 2026 The Velum authors
+# SPDX-License-Identifier: MIT
+# velum_test(<name> <source>... [LINK <target>...] [DEPENDS <target>...] [LABELS <label>...])
+#
+# A Catch2 program <build>/tests/<name> that ctest runs as <name>, with the plugins of this build.
+include_guard(GLOBAL)
+find_package(Catch2 2.13 REQUIRED)
+
+add_library(velum_test_main STATIC ${CMAKE_CURRENT_LIST_DIR}/../tests/main.cpp)
+target_link_libraries(velum_test_main PUBLIC Catch2::Catch2 velum::options)
+
+function(velum_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LINK;DEPENDS;LABELS")
+  string(REPLACE "." "_" target test_${name})
+  add_executable(${target} ${arg_UNPARSED_ARGUMENTS})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name}
+    RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  target_link_libraries(${target} PRIVATE velum_test_main Velum::velum velum::options ${arg_LINK})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(${target} PRIVATE VELUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    VELUM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(arg_DEPENDS)
+    add_dependencies(${target} ${arg_DEPENDS})
+  endif()
+  add_test(NAME ${name} COMMAND ${target})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300 LABELS "${arg_LABELS}" ENVIRONMENT
+    "VELUM_PLUGIN_PATH=${PROJECT_BINARY_DIR}/plugins;XDG_CACHE_HOME=${PROJECT_BINARY_DIR}/test-cache;VELUM_SHARED=${PROJECT_SOURCE_DIR}/../shared")
+endfunction()
