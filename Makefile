@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: 2026 The Velum authors
+# SPDX-License-Identifier: MIT
+# What you can do here; each installs what it needs first and is quick when nothing has changed.
+#
+#   make demo    build, run the main graph, show what was measured
+#   make test    build, run the tests
+#   make check   the long check: clang, format, clang-tidy, sanitizers, long tests, fuzzing
+#   make bench   our stages beside PCL, CGAL and Open3D, one table of ratios
+#   make build   only the release build: build/release/bin/velum
+#   make install PREFIX=/usr/local
+.PHONY: demo test check bench build install format clean
+PREFIX ?= /usr/local
+
+build: build/release/build.ninja
+	@cmake --build --preset release
+
+build/release/build.ninja:
+	@tools/setup.sh build
+	@cmake --preset release
+
+demo: build
+	@tools/demo.sh
+
+test: build
+	@tools/setup.sh build
+	@ctest --preset release -LE long
+
+check: build
+	@tools/check.sh
+
+bench:
+	@tools/setup.sh build bench
+	@cmake --preset bench
+	@cmake --build --preset bench
+	@tools/bench.sh
+
+install: build
+	@cmake --install build/release --prefix $(PREFIX)
+
+format:
+	@tools/format.sh
+
+clean:
+	@rm -rf build
