@@ -80,6 +80,8 @@ class VELUM_API Column {
   [[nodiscard]] Column select(std::span<const std::int32_t> indices) const;
   /// The elements of `a`, then those of `b`; throws Error when type or width differ.
   [[nodiscard]] static Column concatenate(const Column& a, const Column& b);
+  /// The elements of all `parts`, of which there is at least one.
+  [[nodiscard]] static Column concatenate(std::span<const Column> parts);
   /// `count` elements of zero.
   [[nodiscard]] static Column zeros(Scalar scalar, Index width, Index count);
 
@@ -107,7 +109,7 @@ inline constexpr const char* kIntensity = "intensity";  ///< f32, the device's o
 inline constexpr const char* kColour = "colour";        ///< u8 ×3, red, green, blue
 inline constexpr const char* kTime = "time";            ///< f64 [s]
 inline constexpr const char* kLabel = "label";          ///< i32
-inline constexpr const char* kSensor = "sensor";        ///< u8, index into sensors
+inline constexpr const char* kSensor = "sensor";        ///< u8, index into sensors; 255: not known
 inline constexpr const char* kBeam = "beam";            ///< i32, beam within the scan line
 inline constexpr const char* kLine = "line";            ///< i32, scan line within the sweep
 inline constexpr const char* kTilt = "tilt";            ///< f32 [rad], tilt of the beam
