@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,9 +27,19 @@ struct Diagnostic {
 using Diagnostics = std::vector<Diagnostic>;
 
 /// A file that is being checked.
-struct Source {
-  std::string name;
-  std::string text;
+class Source {
+ public:
+  /// `name` is how the user called it.
+  Source(std::string name, std::string text);
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// The line, counted from 1, without its end; empty when there is none.
+  [[nodiscard]] std::string line(std::uint32_t number) const;
+
+ private:
+  std::string name_;
+  std::string text_;
+  std::vector<std::size_t> starts_;  ///< of the lines
 };
 
 /// Collects the mistakes of one file.
