@@ -11,12 +11,6 @@
 #include <exception>
 #include <thread>
 
-namespace velum {
-
-Context::~Context() = default;
-
-}  // namespace velum
-
 namespace velum::run {
 namespace {
 
