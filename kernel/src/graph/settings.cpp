@@ -308,7 +308,7 @@ Setting parse_setting(const Parameter& parameter, const toml::Node& value, const
 
 Setting parse_setting_text(const Parameter& parameter, std::string_view text) {
   Diagnostics diagnostics;
-  const Source source(std::string(text), std::string(text));
+  const Source source{std::string(text), std::string(text)};
   const Units metres{length_unit("m")};
   Setting setting =
       parse_setting(parameter, toml::parse_value(text), metres, Reporter(diagnostics, source));
