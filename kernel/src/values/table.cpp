@@ -13,7 +13,7 @@ namespace velum {
 Table::Table(std::vector<Heading> headings) : headings_(std::move(headings)) {}
 
 void Table::add(std::vector<Cell> row) {
-  if (row.size() != headings_.size())
+  if (row.size() != headings_.size() || row.empty())
     throw Error(Fault::stage, fmt::format("a row of {} cells in a table of {} columns", row.size(),
                                           headings_.size()));
   rows_.push_back(std::move(row));
