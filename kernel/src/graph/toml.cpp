@@ -24,6 +24,8 @@ namespace velum::graph::toml {
   do {                                           \
     if (!(expr)) ::velum::graph::toml::refuse(); \
   } while (false)
+// In release builds toml++ would turn its assertions off, this one included.
+#undef NDEBUG
 #include <toml++/toml.h>
 
 namespace velum::graph::toml {
