@@ -29,6 +29,9 @@ constexpr Unit kLengths[] = {{"m", 1, 1},         {"mm", 1, 1000},      {"cm", 1
 constexpr Unit kAngles[] = {{"deg", std::numbers::pi, 180}, {"rad", 1, 1}};
 constexpr Unit kDurations[] = {
     {"s", 1, 1}, {"ms", 1, 1000}, {"us", 1, 1'000'000}, {"min", 60, 1}, {"h", 3600, 1}};
+constexpr Unit kBytes[] = {{"B", 1, 1},       {"kB", 1e3, 1},     {"MB", 1e6, 1},
+                           {"GB", 1e9, 1},    {"KiB", 0x1p10, 1}, {"MiB", 0x1p20, 1},
+                           {"GiB", 0x1p30, 1}};
 
 const Unit* find_unit(std::span<const Unit> units, std::string_view name) {
   const auto found = std::ranges::find(units, name, &Unit::name);
@@ -106,6 +109,9 @@ std::optional<double> to_angle(const Amount& amount) {
 std::optional<double> to_duration(const Amount& amount) {
   return convert(kDurations, amount);
 }
+std::optional<double> to_bytes(const Amount& amount) {
+  return convert(kBytes, amount);
+}
 
 double in_metres(double number, const LengthUnit& unit) {
   return convert(kLengths, {number, unit.name}).value_or(number * unit.metres);
@@ -125,6 +131,10 @@ const std::vector<std::string>& angle_units() {
 }
 const std::vector<std::string>& duration_units() {
   static const std::vector<std::string> names = names_of(kDurations);
+  return names;
+}
+const std::vector<std::string>& byte_units() {
+  static const std::vector<std::string> names = names_of(kBytes);
   return names;
 }
 

@@ -34,6 +34,8 @@ struct Amount {
 [[nodiscard]] std::optional<double> to_angle(const Amount& amount);
 /// In seconds ("us", "ms", "s", "min", "h").
 [[nodiscard]] std::optional<double> to_duration(const Amount& amount);
+/// In bytes ("B", "kB", "MB", "GB", "KiB", "MiB", "GiB").
+[[nodiscard]] std::optional<double> to_bytes(const Amount& amount);
 /// `number` of the unit in metres, rounded once.
 [[nodiscard]] double in_metres(double number, const LengthUnit& unit);
 
@@ -41,5 +43,6 @@ struct Amount {
 [[nodiscard]] const std::vector<std::string>& relative_units();
 [[nodiscard]] const std::vector<std::string>& angle_units();
 [[nodiscard]] const std::vector<std::string>& duration_units();
+[[nodiscard]] const std::vector<std::string>& byte_units();
 
 }  // namespace velum::graph

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "graph/check.hpp"
+
+namespace velum::graph {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxListed = 1000;  // files of a folder that a missing one is compared with
+
+/// The fault of one name, or "".
+struct Fault {
+  std::string message;
+  std::string hint;
+};
+
+std::string neighbours_hint(const fs::path& path) {
+  std::vector<std::string> names;
+  std::error_code fault;
+  fs::directory_iterator entry(path.parent_path(), fault);
+  for (int n = 0; !fault && entry != fs::directory_iterator() && n < kMaxListed; ++n) {
+    names.push_back(entry->path().filename().string());
+    entry.increment(fault);
+  }
+  return did_you_mean(path.filename().string(), names);
+}
+
+Fault input_fault(const fs::path& path, const std::string& name) {
+  std::error_code fault;
+  const fs::file_status status = fs::status(path, fault);
+  if (status.type() == fs::file_type::not_found || status.type() == fs::file_type::none) {
+    std::string hint = neighbours_hint(path);
+    return {fmt::format("there is no file '{}'", name),
+            hint.empty() ? "the name is relative to the graph's folder" : hint};
+  }
+  if (status.type() == fs::file_type::directory)
+    return {fmt::format("'{}' is a folder, not a file", name), ""};
+  if (!fs::is_regular_file(status)) return {fmt::format("'{}' is no regular file", name), ""};
+  if (::access(path.c_str(), R_OK) != 0)
+    return {fmt::format("'{}' cannot be read: no permission", name), ""};
+  return {};
+}
+
+/// The nearest folder above `path` that is there must take new files.
+Fault folder_fault(const fs::path& path, const std::string& name) {
+  std::error_code fault;
+  for (fs::path folder = path.parent_path();; folder = folder.parent_path()) {
+    const fs::file_status status = fs::status(folder, fault);
+    if (status.type() == fs::file_type::not_found && folder != folder.parent_path()) continue;
+    if (!fs::is_directory(status))
+      return {fmt::format("'{}' cannot be written: '{}' is no folder", name, folder.string()), ""};
+    if (::access(folder.c_str(), W_OK | X_OK) != 0)
+      return {fmt::format("'{}' cannot be written: no permission in '{}'", name, folder.string()),
+              "choose another folder with --out"};
+    return {};
+  }
+}
+
+bool is_record(const fs::path& path) {
+  return path == "run.json" || path == "report.html" || path == "study.json" || path == "study.csv";
+}
+
+Fault output_fault(const fs::path& path, const std::string& name,
+                   const std::optional<fs::path>& out) {
+  if (path.is_absolute())
+    return {fmt::format("'{}' is an absolute path", name),
+            "outputs are written below --out: give a relative name"};
+  if (*path.begin() == "..")
+    return {fmt::format("'{}' leaves the output folder", name), "outputs are written below --out"};
+  if (!path.has_filename() || path == ".") return {fmt::format("'{}' names no file", name), ""};
+  if (is_record(path))
+    return {fmt::format("'{}' is the name of the run's own record", name), "choose another name"};
+  if (!out) return {};
+  const fs::path target = *out / path;
+  std::error_code fault;
+  const fs::file_status status = fs::status(target, fault);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    return {
+        fmt::format("'{}' cannot be written: it is there and is no regular file", target.string()),
+        ""};
+  return folder_fault(target, name);
+}
+
+/// Checks the files of all nodes; two that write one file included.
+class Files {
+ public:
+  explicit Files(Check& check) : check_(check) {}
+
+  void node(Checked& checked) {
+    if (checked.node.info == nullptr) return;
+    const auto& parameters = checked.node.info->parameters;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const Key* key = checked.given[i];
+      if (key == nullptr || !checked.node.settings[i].is_set()) continue;
+      node_ = &checked.node;
+      key_ = key;
+      value(parameters[i], key->value, checked.node.settings[i]);
+    }
+  }
+
+ private:
+  /// `written` is what `setting` was read from.
+  void value(const Parameter& parameter, const toml::Node& written, Setting& setting) {
+    if (auto* list = std::get_if<Setting::List>(&setting.value)) {
+      const bool rows = parameter.type == ParameterType::rows;
+      for (std::size_t i = 0; i < list->size() && i < written.items.size(); ++i)
+        rows ? row(parameter, written.items[i], (*list)[i])
+             : value(parameter, written.items[i], (*list)[i]);
+    } else if (parameter.type == ParameterType::input_file) {
+      input(written, std::get<std::string>(setting.value));
+    } else if (parameter.type == ParameterType::output_file) {
+      output(written, std::get<std::string>(setting.value));
+    }
+  }
+
+  void row(const Parameter& parameter, const toml::Node& written, Setting& setting) {
+    auto& cells = std::get<Setting::List>(setting.value);
+    for (std::size_t i = 0; i < parameter.fields.size() && i < cells.size(); ++i) {
+      const toml::Entry* entry = written.find(parameter.fields[i].name);
+      if (entry != nullptr) value(parameter.fields[i], entry->value, cells[i]);
+    }
+  }
+
+  void input(const toml::Node& written, std::string& name) {
+    const fs::path path = (key_->file->folder / name).lexically_normal();
+    report("E0501", written, input_fault(path, name));
+    name = path.string();
+  }
+
+  void output(const toml::Node& written, std::string& name) {
+    const fs::path path = fs::path(name).lexically_normal();
+    const Fault fault = output_fault(path, name, check_.options.out);
+    report("E0502", written, fault);
+    if (!fault.message.empty()) return;
+    const auto [first, added] = writers_.emplace(path.string(), node_->name);
+    if (!added)
+      report("E0503", written,
+             {fmt::format("'{}' is written by node '{}' too", name, first->second),
+              "give one of them another name"});
+    name = path.string();
+  }
+
+  void report(const char* code, const toml::Node& written, const Fault& fault) const {
+    if (!fault.message.empty())
+      check_.report(*key_).error(code, written.where,
+                                 fmt::format("{}: {}", call(*node_), fault.message), fault.hint);
+  }
+
+  Check& check_;
+  const Node* node_ = nullptr;
+  const Key* key_ = nullptr;
+  std::map<std::string, std::string> writers_;  ///< node by file
+};
+
+}  // namespace
+
+void check_files(Check& check) {
+  Files files(check);
+  for (Checked& checked : check.nodes) files.node(checked);
+}
+
+}  // namespace velum::graph
