@@ -2,144 +2,255 @@
 // SPDX-License-Identifier: MIT
 #include "velum/neighbours.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 
+#include "values/curve.hpp"
+#include "values/point_tree.hpp"
+#include "values/selection.hpp"
 #include "velum/context.hpp"
 
 namespace velum {
 namespace {
 
-struct Adaptor {
-  Points points;
-  [[nodiscard]] std::size_t kdtree_get_point_count() const {
-    return static_cast<std::size_t>(points.cols());
+using spatial::Box;
+using spatial::Leaf;
+using spatial::PointTree;
+
+/// Groups of queries that one thread answers in a row.
+constexpr Index kGroupsAtOnce = 32;
+/// A group is answered together unless its box is this many times wider than the neighbourhood.
+constexpr float kWide = 4.0F;
+/// More than single precision can make of distances that are found about different centres.
+constexpr double kRounding = 1e-6;
+constexpr double kUnderflow = 1e-21;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// The largest float whose value is at most `radius` squared; negative for no radius.
+float limit_of(double radius) {
+  if (!(radius >= 0.0)) return -1.0F;
+  const double square = radius * radius;
+  if (square >= static_cast<double>(std::numeric_limits<float>::max())) return kInfinity;
+  const auto limit = static_cast<float>(square);
+  return static_cast<double>(limit) > square ? std::nextafter(limit, -1.0F) : limit;
+}
+
+/// Up to sixteen queries that lie together, and their numbers.
+struct Group {
+  Leaf queries;
+  Index count = 0;
+  Box box;
+
+  [[nodiscard]] Eigen::Array3f position(Index i) const {
+    return {queries.position(i, 0), queries.position(i, 1), queries.position(i, 2)};
   }
-  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    return points(static_cast<Index>(axis), static_cast<Index>(i));
-  }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
+  [[nodiscard]] Index number(Index i) const { return queries.index[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] float width() const { return (box.high - box.low).matrix().norm(); }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Adaptor>,
-                                                 Adaptor, 3, std::int32_t>;
 
-bool before(const Neighbour& a, const Neighbour& b) {
-  return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.index < b.index;
-}
+/// Answers groups of queries; one per thread. The leaves around a group are found once for all.
+class Answerer {
+ public:
+  Answerer(const PointTree& tree, const Neighbours::Visitor& visit) : tree_(tree), visit_(visit) {}
 
-float just_above(float x) {
-  return std::nextafter(x, std::numeric_limits<float>::infinity());
-}
-
-/// The k nearest as a heap whose front is the farthest.
-struct Nearest {
-  using DistanceType = float;
-  std::size_t k;
-  std::vector<Neighbour>& heap;
-  [[nodiscard]] bool full() const { return heap.size() == k; }
-  [[nodiscard]] float worstDist() const {
-    return full() ? just_above(heap.front().distance2) : std::numeric_limits<float>::infinity();
-  }
-  bool addPoint(float distance2, std::int32_t index) const {
-    const Neighbour candidate{index, distance2};
-    if (full()) {
-      if (!before(candidate, heap.front())) return true;
-      std::pop_heap(heap.begin(), heap.end(), before);
-      heap.pop_back();
+  /// The `k` nearest of each query; 0 < k <= size of the set.
+  void nearest(const Group& group, std::size_t k) {
+    const Eigen::Array3f centre = 0.5F * group.box.low + 0.5F * group.box.high;
+    const float radius = std::sqrt(tree_.gather_nearest(centre, k, found_));
+    if (!(group.width() <= kWide * radius) || std::isinf(radius)) {
+      nearest_singly(group, k);
+      return;
     }
-    heap.push_back(candidate);
-    std::push_heap(heap.begin(), heap.end(), before);
-    return true;
+    // The triangle inequality: k points are within `radius` of the centre.
+    std::array<float, Leaf::kSize> limits2{};
+    for (Index i = 0; i < group.count; ++i) {
+      const double away = (group.position(i) - centre).matrix().cast<double>().norm();
+      const double reach = (static_cast<double>(radius) + away) * (1.0 + kRounding) + kUnderflow;
+      limits2[static_cast<std::size_t>(i)] =
+          std::nextafter(static_cast<float>(reach * reach), kInfinity);
+    }
+    tree_.leaves_near(group.box, *std::max_element(limits2.begin(), limits2.end()), leaves_);
+    for (Index i = 0; i < group.count; ++i) {
+      const float limit2 = limits2[static_cast<std::size_t>(i)];
+      gather(group.position(i), limit2);
+      selector_.first(found_, k, limit2);
+      visit_(group.number(i), found_);
+    }
   }
+
+  /// All points of squared distance up to `limit2` of each query.
+  void within(const Group& group, float limit2) {
+    const bool together = group.width() <= kWide * std::sqrt(limit2);
+    if (together) tree_.leaves_near(group.box, limit2, leaves_);
+    for (Index i = 0; i < group.count; ++i) {
+      if (together) {
+        gather(group.position(i), limit2);
+      } else {
+        tree_.gather_within(group.position(i), limit2, found_);
+      }
+      selector_.first(found_, found_.size(), limit2);
+      visit_(group.number(i), found_);
+    }
+  }
+
+ private:
+  void nearest_singly(const Group& group, std::size_t k) {
+    for (Index i = 0; i < group.count; ++i) {
+      const float limit2 = tree_.gather_nearest(group.position(i), k, found_);
+      selector_.first(found_, k, limit2);
+      visit_(group.number(i), found_);
+    }
+  }
+  /// The points of leaves_ within the limit.
+  void gather(const Eigen::Array3f& query, float limit2) {
+    found_.resize((leaves_.size() + 1) * Leaf::kSize);
+    Neighbour* end = found_.data();
+    for (const std::int32_t leaf : leaves_) {
+      if (distance2(tree_.box(leaf), {query, query}) > limit2) continue;
+      end = spatial::gather(tree_.leaves()[static_cast<std::size_t>(leaf)], query, limit2, end);
+    }
+    found_.resize(static_cast<std::size_t>(end - found_.data()));
+  }
+
+  const PointTree& tree_;
+  const Neighbours::Visitor& visit_;
+  std::vector<std::int32_t> leaves_;
+  std::vector<Neighbour> found_;
+  spatial::Selector selector_;
 };
 
-struct Within {
-  using DistanceType = float;
-  float bound;
-  std::vector<Neighbour>& found;
-  [[nodiscard]] static bool full() { return true; }
-  [[nodiscard]] float worstDist() const { return bound; }
-  bool addPoint(float distance2, std::int32_t index) const {
-    found.push_back({index, distance2});
-    return true;
-  }
-};
+/// Calls answer(answerer, group) for all points of the tree.
+template <class Answer>
+void for_each_group(const PointTree& tree, Context& context, const Neighbours::Visitor& visit,
+                    const Answer& answer) {
+  const auto groups = static_cast<Index>(tree.leaves().size());
+  parallel_for(context, groups, kGroupsAtOnce, [&](Index begin, Index end) {
+    Answerer answerer(tree, visit);
+    for (Index i = begin; i < end; ++i) {
+      context.check();
+      const auto leaf = static_cast<std::size_t>(i);
+      answer(answerer,
+             Group{tree.leaves()[leaf], tree.points_in(i), tree.box(static_cast<std::int32_t>(i))});
+    }
+  });
+}
 
-float square_bound(double radius) {
-  return just_above(static_cast<float>(std::min(radius * radius, 3e38)));
+/// Calls answer(answerer, group) for queries of any order: they are brought into that of a curve.
+/// Those that are no numbers have no neighbours.
+template <class Answer>
+void for_each_group(const PointTree& tree, const ConstPoints& queries, Context& context,
+                    const Neighbours::Visitor& visit, const Answer& answer) {
+  Points finite(3, queries.cols());
+  std::vector<std::int32_t> numbers;
+  for (Index i = 0; i < queries.cols(); ++i) {
+    if (queries.col(i).allFinite()) {
+      finite.col(static_cast<Index>(numbers.size())) = queries.col(i);
+      numbers.push_back(static_cast<std::int32_t>(i));
+    } else {
+      visit(i, {});
+    }
+  }
+  const auto count = static_cast<Index>(numbers.size());
+  const auto order = spatial::curve_order(ConstPoints(finite.data(), 3, count), Leaf::kSize);
+  parallel_for(context, count, kGroupsAtOnce * Leaf::kSize, [&](Index begin, Index end) {
+    Answerer answerer(tree, visit);
+    for (Index first = begin; first < end; first += Leaf::kSize) {
+      context.check();
+      Group group;
+      for (Index i = first; i < std::min(first + Leaf::kSize, end); ++i) {
+        const std::int32_t query = order[static_cast<std::size_t>(i)];
+        const auto place = static_cast<std::size_t>(group.count++);
+        group.queries.index[place] = numbers[static_cast<std::size_t>(query)];
+        group.queries.position.row(i - first) = finite.col(query).array();
+        group.box.low = group.box.low.min(finite.col(query).array());
+        group.box.high = group.box.high.max(finite.col(query).array());
+      }
+      answer(answerer, group);
+    }
+  });
+}
+
+void visit_all(Index count, Context& context, const Neighbours::Visitor& visit) {
+  parallel_for(context, count, kGroupsAtOnce * Leaf::kSize, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) visit(i, {});
+  });
+}
+
+spatial::Selector& selector_of_thread() {
+  thread_local spatial::Selector selector;
+  return selector;
 }
 
 }  // namespace
 
-struct Neighbours::Impl {
-  Adaptor adaptor;
-  Tree tree;
-  explicit Impl(const ConstPoints& positions)
-      : adaptor{positions}, tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}
+struct Neighbours::Impl : PointTree {
+  using PointTree::PointTree;
 };
 
 Neighbours::Neighbours(const ConstPoints& positions) : impl_(std::make_unique<Impl>(positions)) {}
 Neighbours::~Neighbours() = default;
 
 Index Neighbours::size() const {
-  return impl_->adaptor.points.cols();
+  return impl_->size();
 }
 
 void Neighbours::nearest(const Eigen::Vector3f& query, Index k, std::vector<Neighbour>& out) const {
   out.clear();
   if (k <= 0 || size() == 0 || !query.allFinite()) return;
-  Nearest result{static_cast<std::size_t>(std::min(k, size())), out};
-  impl_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
-  std::sort(out.begin(), out.end(), before);
+  const auto number = static_cast<std::size_t>(std::min(k, size()));
+  const float limit2 = impl_->gather_nearest(query, number, out);
+  selector_of_thread().first(out, number, limit2);
 }
 
 void Neighbours::within(const Eigen::Vector3f& query, double radius,
                         std::vector<Neighbour>& out) const {
   out.clear();
-  if (!(radius >= 0.0) || size() == 0 || !query.allFinite()) return;
-  Within result{square_bound(radius), out};
-  impl_->tree.findNeighbors(result, query.data(), nanoflann::SearchParams());
-  std::sort(out.begin(), out.end(), before);
+  const float limit2 = limit_of(radius);
+  if (limit2 < 0.0F || !query.allFinite()) return;
+  impl_->gather_within(query, limit2, out);
+  selector_of_thread().first(out, out.size(), limit2);
 }
 
 Neighbour Neighbours::nearest_one(const Eigen::Vector3f& query, double radius) const {
-  std::vector<Neighbour> found;
-  nearest(query, 1, found);
-  if (found.empty() || !(std::sqrt(static_cast<double>(found.front().distance2)) < radius))
-    return {-1, std::numeric_limits<float>::infinity()};
-  return found.front();
+  const float limit2 = limit_of(radius);
+  if (limit2 < 0.0F || !query.allFinite()) return {-1, kInfinity};
+  const Neighbour found = impl_->nearest_one(query, limit2);
+  if (found.index < 0 || !(static_cast<double>(found.distance2) < radius * radius))
+    return {-1, kInfinity};
+  return found;
 }
 
 void Neighbours::each_nearest(Index k, Context& context, const Visitor& visit) const {
-  const Points& points = impl_->adaptor.points;
-  each_nearest(ConstPoints(points.data(), 3, points.cols()), k, context, visit);
-}
-void Neighbours::each_within(double radius, Context& context, const Visitor& visit) const {
-  const Points& points = impl_->adaptor.points;
-  each_within(ConstPoints(points.data(), 3, points.cols()), radius, context, visit);
-}
-void Neighbours::each_nearest(const ConstPoints& queries, Index k, Context& context,
-                              const Visitor& visit) const {
-  parallel_for(context, queries.cols(), 1024, [&](Index begin, Index end) {
-    std::vector<Neighbour> found;
-    for (Index i = begin; i < end; ++i) {
-      nearest(queries.col(i), k, found);
-      visit(i, found);
-    }
+  const auto number = static_cast<std::size_t>(std::min(k, size()));
+  if (k <= 0 || size() == 0) return visit_all(size(), context, visit);
+  for_each_group(*impl_, context, visit, [number](Answerer& answerer, const Group& group) {
+    answerer.nearest(group, number);
   });
 }
+
+void Neighbours::each_within(double radius, Context& context, const Visitor& visit) const {
+  const float limit2 = limit_of(radius);
+  if (limit2 < 0.0F) return visit_all(size(), context, visit);
+  for_each_group(*impl_, context, visit, [limit2](Answerer& answerer, const Group& group) {
+    answerer.within(group, limit2);
+  });
+}
+
+void Neighbours::each_nearest(const ConstPoints& queries, Index k, Context& context,
+                              const Visitor& visit) const {
+  const auto number = static_cast<std::size_t>(std::min(k, size()));
+  if (k <= 0 || size() == 0) return visit_all(queries.cols(), context, visit);
+  for_each_group(*impl_, queries, context, visit, [number](Answerer& answerer, const Group& group) {
+    answerer.nearest(group, number);
+  });
+}
+
 void Neighbours::each_within(const ConstPoints& queries, double radius, Context& context,
                              const Visitor& visit) const {
-  parallel_for(context, queries.cols(), 1024, [&](Index begin, Index end) {
-    std::vector<Neighbour> found;
-    for (Index i = begin; i < end; ++i) {
-      within(queries.col(i), radius, found);
-      visit(i, found);
-    }
+  const float limit2 = limit_of(radius);
+  if (limit2 < 0.0F) return visit_all(queries.cols(), context, visit);
+  for_each_group(*impl_, queries, context, visit, [limit2](Answerer& answerer, const Group& group) {
+    answerer.within(group, limit2);
   });
 }
 
