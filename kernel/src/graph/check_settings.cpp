@@ -42,7 +42,8 @@ void read_setting(const Check& check, Checked& checked, const Key& key) {
     return;
   }
   const Reporter report = check.report(key).about("of " + call(checked.node));
-  if (checked.given[i] != nullptr) {
+  // An override may use another of the names than the file does.
+  if (checked.given[i] != nullptr && checked.given[i]->file == key.file) {
     report.error("E0209", key.where,
                  fmt::format("'{}' and '{}' are the same parameter {}", checked.given[i]->name,
                              key.name, report.subject()),

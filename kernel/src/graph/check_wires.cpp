@@ -81,6 +81,8 @@ class Wiring {
       for (const toml::Entry& entry : value.entries) by_name(entry);
     } else {
       wired_[0] = &value;
+      // A list was perhaps meant for all inputs: that one message is enough.
+      if (value.is(Kind::array) && !inputs_[0].many) std::ranges::fill(wired_, &value);
       port(0, value);
     }
   }
