@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,6 +27,7 @@ class VELUM_API Table {
 
   Table() = default;
   explicit Table(std::vector<Heading> headings);
+  Table(std::initializer_list<Heading> headings) : Table(std::vector<Heading>(headings)) {}
 
   /// Throws Error when the row has not one cell for each heading.
   void add(std::vector<Cell> row);
