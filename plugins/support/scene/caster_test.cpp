@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "scene/caster.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "velum/random.hpp"
+
+using namespace velum;
+using namespace velum::scene;
+using Eigen::Vector3d;
+
+namespace {
+
+const Reach kAnywhere{};
+
+Ray towards(const Vector3d& from, const Vector3d& to) {
+  return {from, (to - from).normalized()};
+}
+
+Pose tilted() {
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  pose.translation() << 1.0, -2.0, 0.5;
+  return pose;
+}
+
+Scene with(Shape shape) {
+  Scene scene;
+  scene.objects.push_back({"thing", 1, {std::move(shape)}});
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a plane is met where its equation says, inside its sides only") {
+  Plane plane;
+  plane.pose.translation().z() = -2.0;
+  plane.half_x = 3.0;
+  plane.half_y = 1.0;
+  const auto range = meet(plane, towards({0, 0, 0}, {2, 0.5, -2}), kAnywhere);
+  REQUIRE(range);
+  CHECK(*range == Approx(Vector3d(2, 0.5, -2).norm()));
+  CHECK_FALSE(meet(plane, towards({0, 0, 0}, {0, 1.1, -2}), kAnywhere));
+  CHECK_FALSE(meet(plane, {{0, 0, 0}, {1, 0, 0}}, kAnywhere));  // parallel
+  CHECK_FALSE(meet(plane, {{0, 0, 0}, {0, 0, 1}}, kAnywhere));  // behind
+}
+
+TEST_CASE("an ellipsoid is met at its near side, from inside at its far side") {
+  const Ellipsoid shape{tilted(), {2.0, 1.0, 0.5}};
+  const Vector3d axis = shape.pose.linear().col(0);
+  const auto outside = meet(shape, {shape.pose.translation() - 5.0 * axis, axis}, kAnywhere);
+  REQUIRE(outside);
+  CHECK(*outside == Approx(3.0));
+  const auto inside = meet(shape, {shape.pose.translation(), axis}, kAnywhere);
+  REQUIRE(inside);
+  CHECK(*inside == Approx(2.0));
+  CHECK_FALSE(meet(shape, {shape.pose.translation() - 5.0 * axis, -axis}, kAnywhere));
+}
+
+TEST_CASE("a box and a cylinder are met at their sides and ends") {
+  const Box box{tilted(), {1.0, 2.0, 3.0}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d out = box.pose.linear().col(axis);
+    const auto range = meet(box, {box.pose.translation() + 10.0 * out, -out}, kAnywhere);
+    REQUIRE(range);
+    CHECK(*range == Approx(10.0 - box.half[axis]));
+  }
+  const Cylinder cylinder{{0, 0, 0}, {0, 0, 2}, 0.1};
+  CHECK(meet(cylinder, {{1, 0, 1}, {-1, 0, 0}}, kAnywhere).value() == Approx(0.9));
+  CHECK(meet(cylinder, {{0.05, 0, 5}, {0, 0, -1}}, kAnywhere).value() == Approx(3.0));
+  CHECK_FALSE(meet(cylinder, {{1, 0, 2.1}, {-1, 0, 0}}, kAnywhere));
+  CHECK_FALSE(meet(cylinder, {{0.2, 0, 5}, {0, 0, -1}}, kAnywhere));
+}
+
+TEST_CASE("nothing nearer or farther than the reach is met") {
+  const Plane plane;
+  const Ray ray{{0, 0, 5}, {0, 0, -1}};
+  CHECK(meet(plane, ray, {1.0, 6.0}));
+  CHECK_FALSE(meet(plane, ray, {5.5, 6.0}));
+  CHECK_FALSE(meet(plane, ray, {1.0, 4.0}));
+}
+
+TEST_CASE("triangles of a closed form are met where the closed form is") {
+  const Object object{"ball", 1, {Ellipsoid{tilted(), {1.0, 0.8, 0.6}}}};
+  constexpr double kError = 1e-4;
+  const Caster exact(with(object.shapes.front()));
+  const Caster cut(with(triangulate(object, kError)));
+  Random random(7);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d from =
+        tilted().translation() +
+        4.0 * Vector3d(random.gaussian(), random.gaussian(), random.gaussian()).normalized();
+    const Vector3d to = tilted() * Vector3d(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                                            random.uniform(-0.3, 0.3));
+    const auto a = exact.cast(towards(from, to), kAnywhere);
+    const auto b = cut.cast(towards(from, to), kAnywhere);
+    REQUIRE((a && b));
+    CHECK(std::abs(a->range - b->range) < 2.0 * kError);
+    ++hits;
+  }
+  CHECK(hits == 2000);
+}
+
+TEST_CASE("no ray slips between the triangles of a sheet") {
+  TriangleSet set;
+  set.vertices.resize(3, 9);
+  for (Index i = 0; i < 9; ++i)
+    set.vertices.col(i) << static_cast<double>(i % 3), static_cast<double>(i / 3), 0.0;
+  set.triangles.resize(3, 8);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 2; ++i) {
+      const int a = 3 * j + i;
+      set.triangles.col(2 * (2 * j + i)) << a, a + 1, a + 4;
+      set.triangles.col(2 * (2 * j + i) + 1) << a, a + 4, a + 3;
+    }
+  const Caster caster(with(set));
+  for (int i = 1; i < 200; ++i) {
+    const double s = 0.01 * i;  // along shared edges and through shared corners
+    CHECK(caster.cast({{s, 1.0, 3.0}, {0, 0, -1}}, kAnywhere));
+    CHECK(caster.cast({{s, s, 3.0}, {0, 0, -1}}, kAnywhere));
+  }
+}
+
+TEST_CASE("of several objects the nearest is seen") {
+  Scene scene;
+  Plane far;
+  far.pose.translation().z() = -3.0;
+  scene.objects.push_back({"far", 1, {far}});
+  scene.objects.push_back({"near", 2, {Plane{}}});
+  const Caster caster(scene);
+  const auto hit = caster.cast({{0, 0, 1}, {0, 0, -1}}, kAnywhere);
+  REQUIRE(hit);
+  CHECK(hit->object == 1);
+  CHECK(hit->range == Approx(1.0));
+}
