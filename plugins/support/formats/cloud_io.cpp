@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "formats/cloud_io.hpp"
+
+#include "formats/detect.hpp"
+#include "formats/pcd.hpp"
+#include "formats/ply.hpp"
+#include "formats/text.hpp"
+
+namespace velum::formats {
+namespace {
+
+CloudFormat by_extension(const std::filesystem::path& path) {
+  const std::string extension = lower(path.extension().string());
+  constexpr std::pair<std::string_view, CloudFormat> kFormats[] = {
+      {".pcd", CloudFormat::pcd}, {".ply", CloudFormat::ply}, {".xyz", CloudFormat::xyz},
+      {".txt", CloudFormat::xyz}, {".asc", CloudFormat::xyz}, {".csv", CloudFormat::csv},
+      {".vtk", CloudFormat::vtk}};
+  for (const auto& [known, format] : kFormats)
+    if (known == extension) return format;
+  throw Error(Fault::graph, "no format is known for the extension " + quote(extension) +
+                                ", expected .pcd, .ply, .xyz, .txt, .asc, .csv or .vtk")
+      .at(path.string())
+      .hint("name the format by format = \"...\"");
+}
+
+}  // namespace
+
+Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
+  const Format format = detect(source);
+  if (!options.columns.empty() && format != Format::text)
+    throw Error(Fault::graph, "'columns' names those of a text file, but this is a " +
+                                  std::string(name_of(format)) + " file, which names its own")
+        .at(source.name());
+  switch (format) {
+    case Format::pcd:
+      return read_pcd(source, options, context);
+    case Format::ply:
+      return read_ply_cloud(source, options, context);
+    case Format::text:
+      return read_text(source, options, context);
+    default:
+      break;
+  }
+  throw Error(Fault::input, "not read yet").at(source.name());
+}
+
+void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFormat format,
+                 double unit, Context& context) {
+  if (format == CloudFormat::automatic) format = by_extension(path);
+  AtomicFile file(path);
+  switch (format) {
+    case CloudFormat::automatic:
+    case CloudFormat::pcd:
+      write_pcd(file, cloud, PcdKind::binary, unit, context);
+      break;
+    case CloudFormat::pcd_ascii:
+      write_pcd(file, cloud, PcdKind::ascii, unit, context);
+      break;
+    case CloudFormat::pcd_compressed:
+      write_pcd(file, cloud, PcdKind::compressed, unit, context);
+      break;
+    case CloudFormat::ply:
+      write_ply(file, cloud, false, unit, context);
+      break;
+    case CloudFormat::ply_ascii:
+      write_ply(file, cloud, true, unit, context);
+      break;
+    case CloudFormat::xyz:
+      write_text(file, cloud, TextKind::xyz, unit, context);
+      break;
+    case CloudFormat::csv:
+      write_text(file, cloud, TextKind::csv, unit, context);
+      break;
+    case CloudFormat::vtk:
+    case CloudFormat::vtk_ascii:
+      throw Error(Fault::output, "VTK is not written yet").at(path.string());
+  }
+  file.commit();
+}
+
+}  // namespace velum::formats
