@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "geometry/eigen3.hpp"
 #include "geometry/moments.hpp"
@@ -14,54 +15,78 @@ namespace {
 
 using Found = std::span<const Neighbour>;
 
-constexpr std::array<std::size_t, 5> kSizes = {12, 24, 48, 96, 192};
+// Balls in which the noise is looked for, in points.
+constexpr std::array<std::size_t, 4> kSizes = {32, 64, 128, 256};
 constexpr Index kSamples = 512;
 constexpr int kTerms = 6;
+// A ball cuts the noise off above and below. The fit takes what lies within this share of its
+// radius from the axis, where four standard deviations of noise remain, and asks for a ball wide
+// enough.
+constexpr double kInner = 0.6;
+constexpr double kWide = 4.0;
 
-// Root mean square residual [m] of z = a + bx + cy + dx² + exy + fy² over the neighbours, in the
-// frame of their principal axes; freedoms taken by the fit are accounted for.
-double quadric_residual(const ConstPoints& positions, Index query, Found found) {
+// Least squares fit of z = a + bx + cy + dx² + exy + fy².
+class Quadric {
+ public:
+  void add(double x, double y, double z) {
+    const Vector row{1.0, x, y, x * x, x * y, y * y};
+    normal_.noalias() += row * row.transpose();
+    right_ += z * row;
+    heights_ += z * z;
+    ++count_;
+  }
+  [[nodiscard]] bool determined() const { return count_ >= kTerms + 3; }
+  // Root mean square, with the freedoms taken by the fit accounted for.
+  [[nodiscard]] double residual() const {
+    const double squares = heights_ - right_.dot(normal_.ldlt().solve(right_));
+    return std::sqrt(std::max(squares, 0.0) / static_cast<double>(count_ - kTerms));
+  }
+
+ private:
+  using Vector = Eigen::Matrix<double, kTerms, 1>;
+  Eigen::Matrix<double, kTerms, kTerms> normal_ = Eigen::Matrix<double, kTerms, kTerms>::Zero();
+  Vector right_ = Vector::Zero();
+  double heights_ = 0.0;
+  int count_ = 0;
+};
+
+// Residual [m] of the surface's best quadric within a ball; nothing where too few points are left.
+std::optional<double> residual_in(const ConstPoints& positions, Index query, Found found) {
   const Eigen::Vector3f centre = positions.col(query);
   NeighbourMoments moments;
   for (const Neighbour& n : found) moments.add(positions.col(n.index) - centre);
   const Eigen3 axes = eigen3(moments.covariance());
-  const double scale = std::sqrt(axes.values[2]);
-  if (!(scale > 0.0)) return 0.0;
-  using Square = Eigen::Matrix<double, kTerms, kTerms>;
-  using Vector = Eigen::Matrix<double, kTerms, 1>;
-  Square normal = Square::Zero();
-  Vector right = Vector::Zero();
-  double heights = 0.0;
+  const double scale = std::sqrt(static_cast<double>(found.back().distance2));
+  if (!(scale > 0.0)) return std::nullopt;
+  Quadric quadric;
   for (const Neighbour& n : found) {
     const Eigen::Vector3d d =
         axes.vectors.transpose() * (positions.col(n.index) - centre).cast<double>() / scale;
-    const Vector row{1.0, d.y(), d.z(), d.y() * d.y(), d.y() * d.z(), d.z() * d.z()};
-    normal.noalias() += row * row.transpose();
-    right += d.x() * row;
-    heights += d.x() * d.x();
+    if (d.tail<2>().squaredNorm() <= kInner * kInner) quadric.add(d.y(), d.z(), d.x());
   }
-  const double squares = heights - right.dot(normal.ldlt().solve(right));
-  const double freedoms = static_cast<double>(found.size()) - kTerms;
-  return scale * std::sqrt(std::max(squares, 0.0) / freedoms);
+  if (!quadric.determined()) return std::nullopt;
+  return scale * quadric.residual();
 }
 
-// The residual over the smallest neighbourhood whose radius is at least three times as large: in a
-// smaller one the ball cuts the noise off. The largest one's where none is.
+// The residual in the smallest ball that is wide enough for it; the largest ball's where none is.
 double noise_at(const ConstPoints& positions, Index query, Found found) {
-  double residual = 0.0;
+  double noise = 0.0;
   for (const std::size_t size : kSizes) {
-    if (size > found.size()) break;
-    residual = quadric_residual(positions, query, found.first(size));
-    if (std::sqrt(static_cast<double>(found[size - 1].distance2)) >= 3.0 * residual) break;
+    const Found ball = found.first(std::min(size, found.size()));
+    if (const auto residual = residual_in(positions, query, ball)) {
+      noise = *residual;
+      if (std::sqrt(static_cast<double>(ball.back().distance2)) >= kWide * noise) break;
+    }
+    if (ball.size() == found.size()) break;
   }
-  return residual;
+  return noise;
 }
 
 }  // namespace
 
 double estimate_noise(const Cloud& cloud, Context& context) {
   const ConstPoints positions = cloud.positions();
-  if (cloud.size() < static_cast<Index>(kSizes.front())) return 0.0;
+  if (cloud.empty()) return 0.0;
   const Index samples = std::min(cloud.size(), kSamples);
   std::vector<Index> chosen(static_cast<std::size_t>(samples));
   Points queries(3, samples);

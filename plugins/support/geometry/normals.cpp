@@ -35,7 +35,10 @@ struct Fit {
 
 Fit fit_of(const NeighbourMoments& moments) {
   Fit fit{moments.covariance(), {}, moments.count()};
-  fit.values = eigenvalues3(fit.covariance).cwiseMax(0.0);
+  fit.values = eigenvalues3(fit.covariance);
+  // Close to a line the closed form is too coarse to tell a thin neighbourhood from a line.
+  if (fit.values[1] < 1e-6 * fit.values[2]) fit.values = eigen3(fit.covariance).values;
+  fit.values = fit.values.cwiseMax(0.0);
   return fit;
 }
 
