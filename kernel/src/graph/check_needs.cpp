@@ -100,8 +100,8 @@ class Needs {
     if (!fresh) return known->second;
     std::vector<std::string> ids = check_.catalog.ids();
     std::erase_if(ids, [](const std::string& id) { return !id.starts_with("features."); });
-    std::ranges::stable_partition(
-        ids, [&](const std::string& id) { return id == "features." + column; });
+    std::stable_partition(ids.begin(), ids.end(),
+                          [&](const std::string& id) { return id == "features." + column; });
     for (const std::string& id : ids) {
       const StageInfo* info = check_.catalog.find(id);
       if (info == nullptr || !adds(*info, column)) continue;
