@@ -72,7 +72,8 @@ inline Cloud full_cloud(Index count, const Eigen::Vector3d& origin = Eigen::Vect
   first.pose.linear() =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   return cloud.with(column::kNormals, Column(normals))
-      .with(column::kCurvature, Column(real))
+      .with(column::kCurvature,
+            Column(Eigen::VectorXf(real.array() / (3.1F + 3.0F * real.array()))))
       .with(column::kIntensity, Column(Eigen::VectorXf(real * 100.0F)))
       .with(column::kColour, Column(colour))
       .with(column::kTime, Column(time))
