@@ -3,6 +3,7 @@
 #include "geometry/thinning.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -11,20 +12,47 @@ namespace {
 
 constexpr int kBits = 21;
 
-/// Points by the number of their cell, ascending.
-std::vector<std::pair<std::uint64_t, std::int32_t>> sorted_cells(const ConstPoints& positions,
-                                                                 const Eigen::AlignedBox3f& box,
-                                                                 double cell) {
-  std::vector<std::pair<std::uint64_t, std::int32_t>> keys(
-      static_cast<std::size_t>(positions.cols()));
-  const double scale = 1.0 / cell;
-  for (Index i = 0; i < positions.cols(); ++i) {
-    const Eigen::Vector3d at = (positions.col(i) - box.min()).cast<double>() * scale;
+class Grid {
+ public:
+  Grid(const Eigen::AlignedBox3f& box, double cell)
+      : low_(box.min().cast<double>()), scale_(1.0 / cell) {}
+  [[nodiscard]] std::uint64_t operator()(const Eigen::Vector3f& point) const {
+    const Eigen::Vector3d at = (point.cast<double>() - low_) * scale_;
     std::uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis)
       key = (key << kBits) | static_cast<std::uint64_t>(std::max(0.0, at[axis]));
-    keys[static_cast<std::size_t>(i)] = {key, static_cast<std::int32_t>(i)};
+    return key;
   }
+
+ private:
+  Eigen::Vector3d low_;
+  double scale_;
+};
+
+/// How many cells hold a point: a table with open addressing, several times faster than sorting.
+Index count_occupied(const ConstPoints& positions, const Grid& grid) {
+  const std::size_t size = std::bit_ceil(static_cast<std::size_t>(positions.cols()) * 2 + 2);
+  constexpr std::uint64_t kFree = ~std::uint64_t{0};
+  std::vector<std::uint64_t> table(size, kFree);
+  Index occupied = 0;
+  for (Index i = 0; i < positions.cols(); ++i) {
+    const std::uint64_t key = grid(positions.col(i));
+    std::size_t at = (key * 0x9e3779b97f4a7c15U) >> 20U;
+    while (table[at & (size - 1)] != key && table[at & (size - 1)] != kFree) ++at;
+    if (table[at & (size - 1)] == key) continue;
+    table[at & (size - 1)] = key;
+    ++occupied;
+  }
+  return occupied;
+}
+
+/// Points by the number of their cell, ascending.
+std::vector<std::pair<std::uint64_t, std::int32_t>> sorted_cells(const ConstPoints& positions,
+                                                                 const Grid& grid) {
+  std::vector<std::pair<std::uint64_t, std::int32_t>> keys;
+  keys.reserve(static_cast<std::size_t>(positions.cols()));
+  for (Index i = 0; i < positions.cols(); ++i)
+    keys.emplace_back(grid(positions.col(i)), static_cast<std::int32_t>(i));
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -38,7 +66,7 @@ Thinned thin(const ConstPoints& positions, double cell) {
   if (n == 0) return thinned;
   const double extent = static_cast<double>(box.sizes().maxCoeff());
   thinned.cell = std::max({cell, extent / ((1 << kBits) - 2), 1e-30});
-  const auto keys = sorted_cells(positions, box, thinned.cell);
+  const auto keys = sorted_cells(positions, Grid(box, thinned.cell));
   thinned.cell_of.resize(static_cast<std::size_t>(n));
   std::vector<Eigen::Vector3d> sums;
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -64,10 +92,7 @@ double cell_for(const ConstPoints& positions, Index wanted) {
   double cell = static_cast<double>(box.diagonal().norm()) / 100.0;
   // Cells of a surface go with 1/cell²; a few far points may have spoiled the first guess.
   for (int round = 0; round < 3; ++round) {
-    const auto keys = sorted_cells(positions, box, cell);
-    Index occupied = 1;
-    for (std::size_t k = 1; k < keys.size(); ++k)
-      occupied += keys[k].first != keys[k - 1].first ? 1 : 0;
+    const Index occupied = count_occupied(positions, Grid(box, cell));
     const double ratio = std::sqrt(static_cast<double>(occupied) / static_cast<double>(wanted));
     cell *= std::clamp(ratio, 0.1, 10.0);
     if (std::abs(ratio - 1.0) < 0.1) break;
