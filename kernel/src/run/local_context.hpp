@@ -63,6 +63,7 @@ class LocalContext : public Context {
   void run_chunks(Index chunks, const std::function<void(Index chunk)>& body) override;
 
   void cancel() { cancel_ = true; }
+  [[nodiscard]] std::uint64_t seed() const { return options_.seed; }
   /// What progress() said last, 0 to 1.
   [[nodiscard]] double fraction() const { return fraction_; }
   [[nodiscard]] Measures measures() const;

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "files/descriptor.hpp"
+
+namespace velum::run {
+
+/// A run's output folder, held while the run lasts.
+///
+/// It is made when it is not there. What an earlier run of the same graph left in it is removed; a
+/// folder that holds anything else is refused, and so is one that another process writes to. All of
+/// it throws Error (Fault::output).
+class OutputFolder {
+ public:
+  /// `graph` names the graph in records; `files` are those that the run will write, relative to the
+  /// folder, so that the next run knows them as its own even if this one is killed.
+  OutputFolder(const std::filesystem::path& path, const std::string& graph,
+               const std::vector<std::string>& files);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  /// Absolute.
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Where the parts of this run exchange files; made on first use, removed at the end.
+  [[nodiscard]] std::filesystem::path scratch() const;
+  /// Removes scratch files and files that this process was writing, then leaves the folder to
+  /// others.
+  void close();
+
+ private:
+  void lock();
+  void refuse_strangers(const std::string& graph);
+  void remove_earlier();
+  void note(const std::string& graph, const std::vector<std::string>& files);
+
+  std::filesystem::path path_;
+  files::Descriptor lock_;
+  std::vector<std::filesystem::path> earlier_;  ///< files of ours, relative
+};
+
+inline constexpr const char* kRecordName = "run.json";
+inline constexpr const char* kReportName = "report.html";
+
+}  // namespace velum::run

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+// Keeps the points up to a height: none, when it is low.
+#include <velum/stage.hpp>
+
+namespace {
+
+struct Drop {
+  velum::Length above = 2.0;
+
+  static auto about() {
+    return velum::About<Drop>("Drops what is high.")
+        .in("cloud")
+        .out("cloud")
+        .param(&Drop::above, "above", "highest z that stays", velum::anything());
+  }
+  velum::Cloud operator()(const velum::Cloud& cloud, velum::Context&) const {
+    std::vector<std::int32_t> kept;
+    for (velum::Index i = 0; i < cloud.size(); ++i)
+      if (cloud.positions()(2, i) <= static_cast<float>(above))
+        kept.push_back(static_cast<std::int32_t>(i));
+    return cloud.select(kept);
+  }
+};
+
+}  // namespace
+VELUM_STAGE(Drop)
