@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "graph/graph.hpp"
+#include "reporters.hpp"
+#include "run/compare.hpp"
+#include "run/signals.hpp"
+#include "velum/files.hpp"
+
+namespace velum::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path record;
+  fs::path out;
+  int threads = 0;
+};
+
+/// A folder that goes when the comparison is done.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "velum-rerun-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(Fault::output, "no temporary folder can be made").at(name);
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+run::RunOptions options_of(const run::Json& record, const Options& options) {
+  run::RunOptions result;
+  result.threads = options.threads > 0 ? options.threads : record.at("threads").get<int>();
+  result.seed = record.at("seed").get<std::uint64_t>();
+  for (const run::Json& node : record.at("nodes"))
+    result.only.push_back(node.at("name").get<std::string>());
+  result.cancel = &run::stop_requested();
+  return result;
+}
+
+int rerun(const run::Json& record, const Options& options, const fs::path& out) {
+  plugins::Registry registry;
+  const graph::Loaded loaded = graph::load_text(
+      record.at("graph").at("resolved").get<std::string>(),
+      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = out});
+  if (!loaded.graph) {
+    complain(graph::format(loaded.diagnostics));
+    return graph::exit_status(loaded.diagnostics);
+  }
+  run::RunOptions asked = options_of(record, options);
+  asked.out = out;
+  run::catch_signals();
+  const auto reporter = make_text_reporter(on_terminal());
+  const run::RunResult result =
+      run::run_graph(*loaded.graph, registry, asked, *reporter,
+                     [&](const run::RunRecord& begun) { reporter->run_started(begun, out); });
+  if (result.abandoned) std::_Exit(run::kInterrupted);
+  if (result.record.status == run::Status::interrupted) return run::kInterrupted;
+  const auto differences = run::compare(record, run::to_json(result.record));
+  for (const std::string& difference : differences) print("differs: " + difference + "\n");
+  if (differences.empty()) print("the same: every hash agrees\n");
+  return differences.empty() ? 0 : static_cast<int>(Fault::stage);
+}
+
+run::Json read_record(const fs::path& path) {
+  const FileContent content(path);
+  try {
+    return run::Json::parse(content.text());
+  } catch (const run::Json::exception& error) {
+    throw Error(Fault::input, fmt::format("not a run record: {}", error.what())).at(path.string());
+  }
+}
+
+void rerun_command(const Options& options) {
+  if (!fs::exists(options.record))
+    throw Error(Fault::graph, "there is no such file").at(options.record.string());
+  const run::Json record = read_record(options.record);
+  int status = 0;
+  try {
+    if (options.out.empty()) {
+      const TemporaryFolder folder;
+      status = rerun(record, options, folder.path());
+    } else {
+      status = rerun(record, options, options.out);
+    }
+  } catch (const run::Json::exception& error) {
+    throw Error(Fault::input, fmt::format("not a run record: {}", error.what()))
+        .at(options.record.string());
+  }
+  if (status != 0) throw Exit{status};
+}
+
+}  // namespace
+
+void add_rerun(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("rerun", "Run again what a record tells, without the cache, and compare");
+  command->footer("Exit status: 0 where every hash is the same, 1 where something differs.");
+  command->add_option("RUN.json", options->record, "the record of the earlier run")->required();
+  command->add_option("--out", options->out, "keep the new results here")->type_name("DIR");
+  command->add_option("--threads", options->threads, "threads; default: as before")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->callback([options] { rerun_command(*options); });
+}
+
+}  // namespace velum::app
