@@ -41,26 +41,20 @@ PointTree::PointTree(const ConstPoints& positions) : size_(positions.cols()) {
   }
   std::vector<Box> below = boxes_;
   while (levels_.empty() ? !below.empty() : below.size() > 1) {
-    std::vector<Box> above(blocks(below.size(), Node::kFan));
+    std::vector<Box> above(blocks(below.size(), Boxes::kSize));
     auto& level = levels_.emplace_back(above.size());
     for (std::size_t i = 0; i < below.size(); ++i) {
-      const auto child = static_cast<Index>(i % Node::kFan);
-      level[i / Node::kFan].low.row(child) = below[i].low;
-      level[i / Node::kFan].high.row(child) = below[i].high;
-      above[i / Node::kFan] = united(above[i / Node::kFan], below[i]);
+      const auto child = static_cast<Index>(i % Boxes::kSize);
+      level[i / Boxes::kSize].set(child, below[i]);
+      above[i / Boxes::kSize] = united(above[i / Boxes::kSize], below[i]);
     }
     below = std::move(above);
   }
 }
 
-Eigen::Array<float, PointTree::Node::kFan, 1> PointTree::distances(const Node& node,
-                                                                   const Box& query) {
-  const auto gap = [&](int axis) {
-    return (node.low.col(axis) - query.high(axis))
-        .max(query.low(axis) - node.high.col(axis))
-        .max(0.0F);
-  };
-  return gap(0).square() + gap(1).square() + gap(2).square();
+std::size_t PointTree::children_of(std::size_t level, std::size_t number) const {
+  const std::size_t below = level == 0 ? leaves_.size() : levels_[level - 1].size();
+  return std::min<std::size_t>(Boxes::kSize, below - number * Boxes::kSize);
 }
 
 template <class OnLeaf>
@@ -85,9 +79,8 @@ void PointTree::descend(const Box& query, const float& limit2, const OnLeaf& on_
     const auto number = static_cast<std::size_t>(entry.number);
     const auto level = static_cast<std::size_t>(entry.level);
     const auto distance2 = distances(levels_[level][number], query);
-    const std::size_t below = level == 0 ? leaves_.size() : levels_[level - 1].size();
     const std::size_t bottom = top;
-    const auto children = std::min<std::size_t>(Node::kFan, below - number * Node::kFan);
+    const std::size_t children = children_of(level, number);
     for (std::size_t i = 0; i < children; ++i) {
       const float distance = distance2(static_cast<Index>(i));
       if (distance > limit2) continue;
@@ -96,47 +89,70 @@ void PointTree::descend(const Box& query, const float& limit2, const OnLeaf& on_
       for (; place > bottom && stack[place - 1].distance2 < distance; --place)
         stack[place] = stack[place - 1];
       stack[place] = {distance, entry.level - 1,
-                      static_cast<std::int32_t>(number * Node::kFan + i)};
+                      static_cast<std::int32_t>(number * Boxes::kSize + i)};
     }
   }
 }
 
-float PointTree::gather_nearest(const Eigen::Array3f& query, std::size_t k,
-                                std::vector<Neighbour>& out) const {
+float PointTree::limit_nearest(const Eigen::Array3f& query, std::size_t k, std::int32_t leaf,
+                               Candidates& memory) const {
+  // Enough leaves on either side, since the curve may leave the neighbourhood on one of them.
+  const auto middle = static_cast<std::size_t>(leaf);
+  const std::size_t side = blocks(k, Leaf::kSize);
+  const std::size_t begin = middle - std::min(middle, side);
+  const std::size_t end = std::min(leaves_.size(), middle + side + 1);
+  memory.clear();
+  for (std::size_t i = begin; i < end; ++i)
+    memory.set_end(gather(leaves_[i], query, kInfinity, memory.end_with_room(Leaf::kSize)));
+  const auto all = memory.all();
+  const auto kth = all.begin() + static_cast<std::ptrdiff_t>(k - 1);
+  std::nth_element(all.begin(), kth, all.end(), before);
+  return kth->distance2;
+}
+
+std::int32_t PointTree::leaf_near(const Eigen::Array3f& query) const {
+  std::size_t number = 0;
+  for (std::size_t level = levels_.size(); level-- > 0;) {
+    const auto distance2 = distances(levels_[level][number], {query, query});
+    const std::size_t children = children_of(level, number);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < children; ++i)
+      if (distance2(static_cast<Index>(i)) < distance2(static_cast<Index>(nearest))) nearest = i;
+    number = number * Boxes::kSize + nearest;
+  }
+  return static_cast<std::int32_t>(number);
+}
+
+float PointTree::gather_nearest(const Eigen::Array3f& query, std::size_t k, Candidates& out) const {
   float limit2 = kInfinity;
-  std::size_t count = 0;
   std::size_t enough = k;
-  out.resize(2 * k + 2 * Leaf::kSize);
+  out.clear();
   descend({query, query}, limit2, [&](std::int32_t number) {
     const Leaf& leaf = leaves_[static_cast<std::size_t>(number)];
-    count = static_cast<std::size_t>(gather(leaf, query, limit2, out.data() + count) - out.data());
-    if (count < enough) return;
+    out.set_end(gather(leaf, query, limit2, out.end_with_room(Leaf::kSize)));
+    if (out.size() < enough) return;
     // Forget all behind the k-th, then wait until that is worth while again.
-    const auto begin = out.begin();
-    const auto kth = begin + static_cast<std::ptrdiff_t>(k - 1);
-    std::nth_element(begin, kth, begin + static_cast<std::ptrdiff_t>(count), before);
+    const auto all = out.all();
+    const auto kth = all.begin() + static_cast<std::ptrdiff_t>(k - 1);
+    std::nth_element(all.begin(), kth, all.end(), before);
     limit2 = kth->distance2;
-    count = k;
+    out.set_end(&*kth + 1);
     enough = k + std::max<std::size_t>(k / 2, Leaf::kSize);
   });
-  out.resize(count);
   return limit2;
 }
 
-void PointTree::gather_within(const Eigen::Array3f& query, float limit2,
-                              std::vector<Neighbour>& out) const {
-  std::size_t count = 0;
+void PointTree::gather_within(const Eigen::Array3f& query, float limit2, Candidates& out) const {
+  out.clear();
   descend({query, query}, limit2, [&](std::int32_t number) {
-    if (out.size() < count + Leaf::kSize) out.resize(2 * count + 4 * Leaf::kSize);
     const Leaf& leaf = leaves_[static_cast<std::size_t>(number)];
-    count = static_cast<std::size_t>(gather(leaf, query, limit2, out.data() + count) - out.data());
+    out.set_end(gather(leaf, query, limit2, out.end_with_room(Leaf::kSize)));
   });
-  out.resize(count);
 }
 
 Neighbour PointTree::nearest_one(const Eigen::Array3f& query, float limit2) const {
   Neighbour best{-1, kInfinity};
-  descend({query, query}, limit2, [&](std::int32_t number) {
+  const auto look = [&](std::int32_t number) {
     const Leaf& leaf = leaves_[static_cast<std::size_t>(number)];
     const auto distance2 = spatial::distances(leaf, query);
     if (!(distance2 <= limit2).any()) return;
@@ -147,7 +163,10 @@ Neighbour PointTree::nearest_one(const Eigen::Array3f& query, float limit2) cons
       best = candidate;
       limit2 = candidate.distance2;
     }
-  });
+  };
+  if (leaves_.empty()) return best;
+  look(leaf_near(query));  // a good limit from the start
+  descend({query, query}, limit2, look);
   return best;
 }
 
