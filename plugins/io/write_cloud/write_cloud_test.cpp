@@ -23,8 +23,8 @@ Stage stage(const std::filesystem::path& file) {
   return made;
 }
 
-constexpr const char* kFormats[] = {"pcd", "pcd_ascii", "pcd_compressed", "ply", "ply_ascii",
-                                    "xyz", "csv"};
+constexpr const char* kFormats[] = {"pcd", "pcd_ascii", "pcd_compressed", "ply", "ply_ascii", "xyz",
+                                    "csv", "vtk",       "vtk_ascii"};
 
 }  // namespace
 
@@ -73,8 +73,9 @@ TEST_CASE("a target that is a folder is refused") {
 TEST_CASE("a full disk, a read-only folder and a kill leave no half file") {
   for (const char* format : kFormats) {
     INFO(format);
-    for (const std::string& fault : velum::formats::test::writer_faults(
-             [&](const auto& path) { stage(path).set("format", format).threads(1).run(full_cloud(20000)); }))
+    for (const std::string& fault : velum::formats::test::writer_faults([&](const auto& path) {
+           stage(path).set("format", format).threads(1).run(full_cloud(20000));
+         }))
       FAIL_CHECK(fault);
   }
 }

@@ -3,9 +3,14 @@
 #include "formats/cloud_io.hpp"
 
 #include "formats/detect.hpp"
+#include "formats/las.hpp"
+#include "formats/obj.hpp"
+#include "formats/off.hpp"
 #include "formats/pcd.hpp"
 #include "formats/ply.hpp"
+#include "formats/stl.hpp"
 #include "formats/text.hpp"
+#include "formats/vtk.hpp"
 
 namespace velum::formats {
 namespace {
@@ -39,10 +44,18 @@ Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
       return read_ply_cloud(source, options, context);
     case Format::text:
       return read_text(source, options, context);
-    default:
+    case Format::las:
+      return read_las(source, options, context);
+    case Format::vtk:
+      return read_vtk_cloud(source, options, context);
+    case Format::off:
+      return read_off(source, options, context).vertices();
+    case Format::obj:
+      return read_obj(source, options, context).vertices();
+    case Format::stl:
       break;
   }
-  throw Error(Fault::input, "not read yet").at(source.name());
+  return read_stl(source, options, context).vertices();
 }
 
 void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFormat format,
@@ -73,8 +86,11 @@ void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFor
       write_text(file, cloud, TextKind::csv, unit, context);
       break;
     case CloudFormat::vtk:
+      write_vtk(file, cloud, false, unit, context);
+      break;
     case CloudFormat::vtk_ascii:
-      throw Error(Fault::output, "VTK is not written yet").at(path.string());
+      write_vtk(file, cloud, true, unit, context);
+      break;
   }
   file.commit();
 }

@@ -82,6 +82,15 @@ TEST_CASE("text keeps every value; types of extra columns are those that the val
   CHECK(read_file(folder / "cloud.xyz").sensors().size() == 2);
 }
 
+TEST_CASE("VTK keeps every column, but no sensors") {
+  const test::Folder folder;
+  const Cloud cloud = test::full_cloud(70000).with_sensors({}).without(column::kSensor);
+  for (const CloudFormat format : {CloudFormat::vtk, CloudFormat::vtk_ascii}) {
+    write(folder / "cloud.vtk", cloud, format);
+    check_same(cloud, read_file(folder / "cloud.vtk"));
+  }
+}
+
 TEST_CASE("an empty cloud is written and read") {
   const test::Folder folder;
   for (const Case& one : kTyped) {
@@ -95,7 +104,7 @@ TEST_CASE("large coordinates are written in double precision and lose nothing") 
   const test::Folder folder;
   const Eigen::Vector3d place(512345.0, 5413211.0, 0.0);
   const Cloud cloud = test::plain_cloud(500, place);
-  for (const char* name : {"a.pcd", "b.ply", "c.xyz", "d.csv"}) {
+  for (const char* name : {"a.pcd", "b.ply", "c.xyz", "d.csv", "e.vtk"}) {
     INFO(name);
     write(folder / name, cloud);
     const Cloud back = read_file(folder / name);
@@ -126,7 +135,7 @@ TEST_CASE("units scale what is read and written") {
   const Cloud cloud = test::plain_cloud(100);
   ReadOptions millimetres;
   millimetres.unit = 0.001;
-  for (const char* name : {"a.pcd", "b.ply", "c.xyz", "d.csv"}) {
+  for (const char* name : {"a.pcd", "b.ply", "c.xyz", "d.csv", "e.vtk"}) {
     INFO(name);
     write(folder / name, cloud, CloudFormat::automatic, 0.001);
     CHECK(read_file(folder / name).positions().isApprox(cloud.positions() * 1000.0F, 1e-6F));

@@ -16,18 +16,11 @@ using test::read;
 namespace {
 
 Mesh read_mesh(std::string_view content) {
-  Source source("mesh.ply", content);
-  run::LocalContext context(2, 1);
-  return read_ply_mesh(source, {}, context);
+  return test::read_mesh_text(content, "mesh.ply");
 }
 
 std::string mesh_error(std::string_view content) {
-  try {
-    (void)read_mesh(content);
-  } catch (const Error& error) {
-    return error.where() + ": " + error.what();
-  }
-  return "";
+  return test::mesh_error_of(content, "mesh.ply");
 }
 
 std::string reversed(std::string bytes, std::size_t size) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "formats/cloud_io.hpp"
+#include "formats/mesh_io.hpp"
 #include "kernel/src/run/local_context.hpp"
 #include "velum/values.hpp"
 
@@ -119,6 +120,39 @@ inline std::string error_of(std::string_view content, const std::string& name = 
     return error.where() + ": " + error.what();
   }
   return "";
+}
+
+inline Mesh read_mesh_text(std::string_view content, const std::string& name = "mesh.obj",
+                           const ReadOptions& options = {}) {
+  Source source(name, content);
+  run::LocalContext context(2, 1);
+  return read_mesh(source, options, context);
+}
+
+inline Mesh read_mesh_file(const std::filesystem::path& path, const ReadOptions& options = {}) {
+  Source source(path);
+  run::LocalContext context(2, 1);
+  return read_mesh(source, options, context);
+}
+
+inline std::string mesh_error_of(std::string_view content, const std::string& name = "mesh.obj") {
+  try {
+    (void)read_mesh_text(content, name);
+  } catch (const Error& error) {
+    if (error.fault() != Fault::input) return "another fault: " + std::string(error.what());
+    return error.where() + ": " + error.what();
+  }
+  return "";
+}
+
+/// A grid of triangles over the points of full_cloud().
+inline Mesh full_mesh(Index count, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) {
+  Triangles triangles(3, count - 2);
+  for (Index i = 0; i < count - 2; ++i) {
+    const auto first = static_cast<std::int32_t>(i);
+    triangles.col(i) << first, first + 1, first + 2;
+  }
+  return {full_cloud(count, origin), std::move(triangles)};
 }
 
 template <class T>

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "formats/assemble.hpp"
+#include "velum/mesh.hpp"
+
+namespace velum::formats {
+
+/// The mesh in a file of any format that can be read; polygons become triangles.
+Mesh read_mesh(Source& source, const ReadOptions& options, Context& context);
+
+/// How to write a mesh; `automatic` goes by the file's extension.
+enum class MeshFormat { automatic, ply, ply_ascii, stl, stl_ascii, obj, off, vtk, vtk_ascii };
+/// Throws Error (Fault::output) naming the file when it cannot be written.
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, MeshFormat format, double unit,
+                Context& context);
+
+}  // namespace velum::formats
