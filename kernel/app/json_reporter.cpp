@@ -39,8 +39,8 @@ class JsonReporter final : public Reporter {
                    {"seed", record.seed},
                    {"nodes", std::move(nodes)}});
   }
-  void node_started(const run::NodeRecord& node) override {
-    emit("node_start", {{"node", node.name}, {"use", node.use}});
+  void node_started(const std::string& node, const std::string& stage) override {
+    emit("node_start", {{"node", node}, {"use", stage}});
   }
   void said(const std::string& node, run::LocalContext::Level level,
             const std::string& message) override {

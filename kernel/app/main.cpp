@@ -100,6 +100,10 @@ int run(int argc, char** argv) {
   add_run(app);
   add_check(app);
   add_rerun(app);
+  add_list(app);
+  add_describe(app);
+  add_schema(app);
+  add_new(app);
   add_convert(app);
   add_info(app);
   return parse(app, argc, argv);

@@ -304,7 +304,9 @@ in = "slow"
 TEST_CASE("what stages say reaches observer and record", "[executor]") {
   struct Listener : run::Observer {
     std::vector<std::string> heard;
-    void node_started(const run::NodeRecord& node) override { heard.push_back("+" + node.name); }
+    void node_started(const std::string& node, const std::string&) override {
+      heard.push_back("+" + node);
+    }
     void said(const std::string& node, run::LocalContext::Level level,
               const std::string& message) override {
       const bool warning = level == run::LocalContext::Level::warning;
@@ -351,12 +353,12 @@ TEST_CASE("a node costs the kernel microseconds", "[executor]") {
     options.out = folder.path();
     options.threads = 2;
     run::Executor executor(graph, test::registry(), options, nobody);
-    const auto began = std::chrono::steady_clock::now();
+    const double began = run::own_cpu_seconds();  // not the clock: the machine may be busy
     CHECK(executor.run() == run::Ended::done);
-    best = std::min(best, seconds_since(began) / kNodes);
+    best = std::min(best, (run::own_cpu_seconds() - began) / kNodes);
   }
   WARN("kernel overhead per node: " << best * 1e6 << " us");
 #ifndef VELUM_SANITIZED
-  CHECK(best < 200e-6);  // aim: 50 us; the rest is for machines that are busy
+  CHECK(best < 50e-6);
 #endif
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "run/threads.hpp"
+
 namespace velum::run {
 namespace {
 
@@ -18,6 +20,7 @@ Executor::Executor(const graph::Graph& graph, plugins::Registry& registry, Execu
       waiting_(graph.nodes.size()),
       dropped_(graph.nodes.size()) {
   limit_threads(options_.threads);
+  find_openmp();
   for (const std::size_t node : nodes_.chosen()) {
     waiting_[node] = nodes_.sources(node).size();
     if (waiting_[node] == 0) ready_.insert(node);

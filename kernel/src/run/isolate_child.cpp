@@ -62,6 +62,7 @@ std::vector<Wired> read_inputs(const fs::path& scratch, const Json& counts) {
 
 Results run_stage(const fs::path& scratch, const Json& json, Context& context) {
   const StageType& stage = plugins::open_stage(json.at("plugin").get<std::string>());
+  find_openmp();
   limit_openmp(context.threads());
   const plugins::Call call{from_json(stage.info().parameters, json.at("settings")),
                            read_inputs(scratch, json.at("inputs"))};

@@ -47,7 +47,6 @@ void NodeRunner::begin(State& state, int threads) {
         const std::lock_guard observing(observing_);
         observer_.said(state.node->name, level, message);
       }});
-  NodeRecord record;
   {
     const std::lock_guard lock(mutex_);
     state.overlapped = running_ > 0;
@@ -56,10 +55,9 @@ void NodeRunner::begin(State& state, int threads) {
         if (other.context) other.overlapped = true;
     state.context = std::move(context);
     state.started = Clock::now();
-    record = state.record;
   }
   const std::lock_guard observing(observing_);
-  observer_.node_started(record);
+  observer_.node_started(state.node->name, state.node->use);
 }
 
 void NodeRunner::end(State& state) {
@@ -104,7 +102,7 @@ Results NodeRunner::run_stage(State& state, int threads) {
   std::vector<Wired> inputs = gather(state, threads);
   state.context->check();
   peak_.mark();
-  Timing timing{.started = Clock::now(), .cpu = cpu_seconds()};
+  Timing timing{.started = Clock::now(), .cpu = own_cpu_seconds()};
   Results results;
   try {
     const plugins::Call call = prepare(state, std::move(inputs));
@@ -169,7 +167,7 @@ Results NodeRunner::call(State& state, const plugins::Call& call, Timing& timing
 }
 
 void NodeRunner::record_timing(State& state, const Timing& timing) {
-  const double cpu = cpu_seconds() - timing.cpu;
+  const double cpu = own_cpu_seconds() - timing.cpu;
   const std::uint64_t peak = peak_.since_mark();
   const std::lock_guard lock(mutex_);
   if (abandoned_) return;

@@ -25,7 +25,7 @@ class Observer {
   Observer& operator=(const Observer&) = delete;
   virtual ~Observer() = default;
 
-  virtual void node_started(const NodeRecord& /*node*/) {}
+  virtual void node_started(const std::string& /*node*/, const std::string& /*stage*/) {}
   virtual void said(const std::string& /*node*/, LocalContext::Level /*level*/,
                     const std::string& /*message*/) {}
   virtual void node_ended(const NodeRecord& /*node*/) {}

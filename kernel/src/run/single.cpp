@@ -33,7 +33,8 @@ Results run_single(plugins::Registry& registry, const std::string& stage,
   }
   for (const auto& [name, text] : settings) {
     const auto& known = type.info().parameters;
-    if (std::none_of(known.begin(), known.end(), [&name = name](const auto& p) { return p.name == name; }))
+    if (std::none_of(known.begin(), known.end(),
+                     [&name = name](const auto& p) { return p.name == name; }))
       throw Error(Fault::graph, fmt::format("{} has no parameter '{}'", stage, name));
   }
   return plugins::invoke(type, plugins::prepare(type.info(), std::move(values), std::move(inputs)),

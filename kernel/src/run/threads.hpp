@@ -4,8 +4,9 @@
 
 namespace velum::run {
 
-/// Threads of OpenMP regions that the calling thread begins, where some library has loaded
-/// OpenMP's run-time.
+/// Looks whether some library has loaded OpenMP's run-time; to be called when all plugins are open.
+void find_openmp();
+/// Threads of OpenMP regions that the calling thread begins, where OpenMP was found.
 void limit_openmp(int threads);
 
 }  // namespace velum::run

@@ -10,6 +10,7 @@
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <ctime>
 #include <string_view>
 
 namespace velum::run {
@@ -20,6 +21,12 @@ double seconds(const timeval& time) {
 }
 
 }  // namespace
+
+double own_cpu_seconds() {
+  struct timespec time = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 double cpu_seconds() {
   double total = 0.0;
@@ -41,7 +48,6 @@ PeakMeter::PeakMeter()
 void PeakMeter::mark() {
   const std::lock_guard lock(mutex_);
   if (!reset_) return;
-  read();
   if (::write(reset_.get(), "5", 1) != 1) reset_ = files::Descriptor();
 }
 

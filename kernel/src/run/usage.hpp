@@ -9,6 +9,8 @@
 
 namespace velum::run {
 
+/// Processor time of this process [s].
+double own_cpu_seconds();
 /// Processor time of this process and its ended children [s].
 double cpu_seconds();
 
