@@ -9,6 +9,7 @@
 
 #include "geometry/eigen3.hpp"
 #include "geometry/moments.hpp"
+#include "geometry/viewpoint.hpp"
 
 namespace velum::geometry {
 namespace {
@@ -90,14 +91,11 @@ class Growth {
 class Estimator {
  public:
   Estimator(const Cloud& cloud, Context& context)
-      : cloud_(cloud), positions_(cloud.positions()), context_(context) {
+      : cloud_(cloud), positions_(cloud.positions()), viewpoints_(cloud), context_(context) {
     field_.normals.resize(3, cloud.size());
     field_.curvature.resize(cloud.size());
     counts_.assign(static_cast<std::size_t>(cloud.size()), 0);
     degenerate_.assign(counts_.size(), 0);
-    for (std::size_t i = 0; i < cloud.sensors().size(); ++i)
-      viewpoints_.push_back(cloud.sensor_position(i));
-    if (viewpoints_.empty()) viewpoints_.emplace_back((-cloud.origin()).cast<float>());
   }
 
   void fixed(const NormalOptions& options) {
@@ -192,9 +190,7 @@ class Estimator {
   }
 
   void finish(Index query, const Fit& fit) {
-    const Eigen::Vector3f from = positions_.col(query);
-    const Eigen::Vector3d view =
-        (viewpoints_[cloud_.sensor_of(query).value_or(0)] - from).cast<double>();
+    const Eigen::Vector3d view = viewpoints_.from(query);
     Eigen::Vector3d normal;
     if (fit.fixes_a_plane()) {
       normal = smallest_eigenvector3(fit.covariance, fit.values);
@@ -225,9 +221,9 @@ class Estimator {
 
   const Cloud& cloud_;
   ConstPoints positions_;
+  Viewpoints viewpoints_;
   Context& context_;
   NormalField field_;
-  std::vector<Eigen::Vector3f> viewpoints_;
   std::vector<std::int32_t> counts_;
   std::vector<std::uint8_t> degenerate_;
 };
