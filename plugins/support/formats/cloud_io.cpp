@@ -29,6 +29,12 @@ CloudFormat by_extension(const std::filesystem::path& path) {
       .hint("name the format by format = \"...\"");
 }
 
+/// A mesh has no vertices to drop: it is refused when one is not finite.
+Cloud vertices_of(const Mesh& mesh, Context& context) {
+  context.measure("dropped", 0.0, "", Better::lower);
+  return mesh.vertices();
+}
+
 }  // namespace
 
 Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
@@ -49,13 +55,13 @@ Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
     case Format::vtk:
       return read_vtk_cloud(source, options, context);
     case Format::off:
-      return read_off(source, options, context).vertices();
+      return vertices_of(read_off(source, options, context), context);
     case Format::obj:
-      return read_obj(source, options, context).vertices();
+      return vertices_of(read_obj(source, options, context), context);
     case Format::stl:
       break;
   }
-  return read_stl(source, options, context).vertices();
+  return vertices_of(read_stl(source, options, context), context);
 }
 
 void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFormat format,
