@@ -125,6 +125,8 @@ class Icp {
 
   void add_pair(Sums& sums, const Eigen::Vector3d& point, std::int32_t match) const {
     const Eigen::Vector3d target = target_.positions().col(match).cast<double>();
+    // Normals of points without neighbours may be unset or not finite: such pairs say nothing.
+    if (normals_ && !(std::abs(normals_->col(match).squaredNorm() - 1.0F) < 0.1F)) return;
     const Eigen::Vector3d p = point - sums.planes.centre();
     const Eigen::Vector3d q = target - sums.planes.centre();
     ++sums.pairs;

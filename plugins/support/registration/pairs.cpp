@@ -43,22 +43,24 @@ bool ClosestPairs::keeps_match(Index i, const Eigen::Vector3f& now) {
 }
 
 void ClosestPairs::search(const std::vector<std::int32_t>& which, Context& context) {
-  Points queries(3, static_cast<Index>(which.size()));
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    const Eigen::Vector3f now = moved(which[k]).cast<float>();
-    queries.col(static_cast<Index>(k)) = now;
-    searched_at_.col(which[k]) = now;
-  }
-  const ConstPoints view(queries.data(), 3, queries.cols());
-  target_.neighbours().each_nearest(
-      view, 2, context, [&](Index query, std::span<const Neighbour> found) {
-        const auto at = static_cast<std::size_t>(which[static_cast<std::size_t>(query)]);
-        if (found.empty()) return;
-        match_[at] = found[0].index;
-        first_[at] = std::sqrt(found[0].distance2);
-        second_[at] = found.size() > 1 ? std::sqrt(found[1].distance2) : kInfinity;
-        distance_[at] = first_[at];
-      });
+  const Neighbours& neighbours = target_.neighbours();
+  // One by one: while the clouds are apart, the points around a match are far more than those near
+  // it, which is what the answers for many queries at once are made for.
+  parallel_for(context, static_cast<Index>(which.size()), kGrain / 4, [&](Index begin, Index end) {
+    std::vector<Neighbour> found;
+    for (Index k = begin; k < end; ++k) {
+      const std::int32_t point = which[static_cast<std::size_t>(k)];
+      const Eigen::Vector3f now = moved(point).cast<float>();
+      searched_at_.col(point) = now;
+      neighbours.nearest(now, 2, found);
+      if (found.empty()) continue;
+      const auto at = static_cast<std::size_t>(point);
+      match_[at] = found[0].index;
+      first_[at] = std::sqrt(found[0].distance2);
+      second_[at] = found.size() > 1 ? std::sqrt(found[1].distance2) : kInfinity;
+      distance_[at] = first_[at];
+    }
+  });
 }
 
 void ClosestPairs::update(const Pose& pose, double max_distance, Context& context) {

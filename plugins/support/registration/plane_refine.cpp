@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/eigen3.hpp"
 #include "geometry/normals.hpp"
@@ -117,30 +118,24 @@ class Refinement {
     refined_.pairs = 0;
     if (rest_.source.cols() == 0 || rest_.target.empty()) return;
     pairs_.update(refined_.pose, distance, context_);
-    const auto normals = rest_.target.normals();
-    std::vector<double> gaps(static_cast<std::size_t>(pairs_.size()));
+    const std::vector<double> gaps = rest_gaps();
     std::vector<double> sizes;
-    for (Index i = 0; i < pairs_.size(); ++i) {
-      const std::int32_t match = pairs_.match(i);
-      if (match < 0) continue;
-      const double gap =
-          normals.col(match).cast<double>().dot(pairs_.target(match) - pairs_.moved(i));
-      gaps[static_cast<std::size_t>(i)] = gap;
-      sizes.push_back(std::abs(gap));
-    }
+    for (const double gap : gaps)
+      if (!std::isnan(gap)) sizes.push_back(std::abs(gap));
     refined_.pairs = static_cast<Index>(sizes.size());
     if (sizes.empty()) return;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
+    // 1.4826 medians are one standard deviation of a normal distribution.
     const double half = kHalf * 1.4826 * *middle + 1e-12 * refined_.radius;
+    const auto normals = rest_.target.normals();
     const auto part = [&](Index begin, Index end) {
       NormalEquations mine(sums.centre());
       for (Index i = begin; i < end; ++i) {
-        const std::int32_t match = pairs_.match(i);
-        if (match < 0) continue;
         const double gap = gaps[static_cast<std::size_t>(i)];
+        if (std::isnan(gap)) continue;
         const double ratio = gap / half;
-        mine.add(pairs_.moved(i), normals.col(match).cast<double>(), gap,
+        mine.add(pairs_.moved(i), normals.col(pairs_.match(i)).cast<double>(), gap,
                  1.0 / ((1.0 + ratio * ratio) * (1.0 + ratio * ratio)));
       }
       return mine;
@@ -148,6 +143,20 @@ class Refinement {
     sums.add(parallel_reduce(
         context_, pairs_.size(), kGrain, NormalEquations(sums.centre()), part,
         [](NormalEquations& total, const NormalEquations& one) { total.add(one); }));
+  }
+
+  /// Distance of each point of the rest from its match's tangent plane; NaN where there is none.
+  [[nodiscard]] std::vector<double> rest_gaps() const {
+    const auto normals = rest_.target.normals();
+    std::vector<double> gaps(static_cast<std::size_t>(pairs_.size()),
+                             std::numeric_limits<double>::quiet_NaN());
+    for (Index i = 0; i < pairs_.size(); ++i) {
+      const std::int32_t match = pairs_.match(i);
+      if (match >= 0)
+        gaps[static_cast<std::size_t>(i)] =
+            normals.col(match).cast<double>().dot(pairs_.target(match) - pairs_.moved(i));
+    }
+    return gaps;
   }
 
   const RoomScan& source_;
