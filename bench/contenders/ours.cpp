@@ -34,7 +34,7 @@ Contender icp(const std::string& operation, int threads, const std::string& metr
   return {operation, threads == 1 ? "Velum, 1 thread" : "Velum", [=](const Input& input) {
             Stage stage("registration.icp");
             stage.set("metric", metric).set("iterations", "25").set("max_distance", "0.2 m");
-            stage.set("relative_error", "0").threads(threads);
+            stage.set("relative_change", "0").threads(threads);
             return [stage, source = fresh(input.moved), target = fresh(input.normals)]() mutable {
               stage.run(source, target);
             };
