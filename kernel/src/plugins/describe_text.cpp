@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "graph/settings.hpp"
 #include "plugins/describe.hpp"
@@ -76,6 +77,10 @@ std::string default_of(const Parameter& parameter) {
   if (parameter.required) return "required";
   if (parameter.type == ParameterType::length_unit) return "default: the graph's units";
   if (!parameter.initial.is_set()) return "optional";
+  // As people think of angles, and as their ranges are shown.
+  if (const auto* radians = std::get_if<double>(&parameter.initial.value);
+      radians != nullptr && parameter.type == ParameterType::angle)
+    return fmt::format("default \"{:.6g} deg\"", *radians * 180.0 / std::numbers::pi);
   return "default " + graph::to_toml(parameter, parameter.initial);
 }
 

@@ -136,7 +136,7 @@ Probed probe_afresh(const std::filesystem::path& file, std::chrono::milliseconds
   } else if (!answer.is_object()) {
     probed.quarantined = how_it_ended(status);
   } else if (answer.contains("thrown")) {
-    probed.quarantined = "a static constructor throws " + answer.value("thrown", "");
+    probed.quarantined = "throws in a static constructor: " + answer.value("thrown", "");
   } else {
     probed.refused = answer.value("refused", "");
     probed.summary = answer.value("summary", "");

@@ -39,7 +39,7 @@ void answer(const nlohmann::json& json) {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
   } catch (const std::exception& error) {
-    thrown = std::string("a std::exception: ") + error.what();
+    thrown = error.what();
   } catch (...) {
     thrown = "something that is not a std::exception";
   }
