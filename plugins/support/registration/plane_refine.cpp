@@ -23,6 +23,8 @@ constexpr int kStepsLast = 12;
 constexpr double kCutoff = 1e-7;
 /// Cauchy weights fall to a half at this many deviations.
 constexpr double kHalf = 3.0;
+/// Fewer points than these on no plane are stray ones.
+constexpr Index kLeastRest = 50;
 /// Motions below this share of the scene end the refinement.
 constexpr double kStill = 1e-7;
 
@@ -116,7 +118,7 @@ class Refinement {
 
   void add_rest(NormalEquations& sums, double distance) {
     refined_.pairs = 0;
-    if (rest_.source.cols() == 0 || rest_.target.empty()) return;
+    if (std::min(rest_.source.cols(), rest_.target.size()) < kLeastRest) return;
     pairs_.update(refined_.pose, distance, context_);
     const std::vector<double> gaps = rest_gaps();
     std::vector<double> sizes;
@@ -127,7 +129,8 @@ class Refinement {
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
     // 1.4826 medians are one standard deviation of a normal distribution.
-    const double half = kHalf * 1.4826 * *middle + 1e-12 * refined_.radius;
+    const double half =
+        std::min(kHalf * 1.4826 * *middle, 0.5 * distance) + 1e-12 * refined_.radius;
     const auto normals = rest_.target.normals();
     const auto part = [&](Index begin, Index end) {
       NormalEquations mine(sums.centre());

@@ -230,7 +230,7 @@ class PlaneRegistration {
   }
 
   void finish(const Candidate& best, PlanesResult& result) {
-    const double last = std::max(0.25 * margin_, 3.0 * rest_.target.spacing());
+    const double last = std::clamp(3.0 * rest_.target.spacing(), 0.25 * margin_, 0.5 * margin_);
     Refined refined =
         refine(source_, target_, rest_, best.assignment, 0.5 * margin_, last, context_);
     result.pose = refined.pose;
