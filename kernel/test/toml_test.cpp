@@ -134,3 +134,116 @@ TEST_CASE("the suite toml-test for TOML 1.0.0") {
   CHECK(valid > 100);
   CHECK(invalid > 300);
 }
+
+namespace {
+
+/// "2:5 message | hint" of what is refused; "" when it is not.
+std::string refusal(const std::string& text) {
+  try {
+    (void)toml::parse(text);
+  } catch (const toml::SyntaxError& error) {
+    return fmt::format("{}:{} {}{}{}", error.where().begin.line, error.where().begin.column,
+                       error.what(), error.hint().empty() ? "" : " | ", error.hint());
+  }
+  return "";
+}
+
+std::string times(const std::string& text, int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i) all += text;
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("keys keep the order of the file, and everything has its place") {
+  const toml::Node root =
+      toml::parse("z = 1\na = [\n  \"x\", 2.5 ]\n[node.\"b c\"]\nin = {y = 1}\n");
+  REQUIRE(root.entries.size() == 3);
+  CHECK(root.entries[0].key == "z");
+  CHECK(root.entries[1].key == "a");
+  const auto& array = root.entries[1].value;
+  CHECK(array.where.begin == toml::Position{2, 5});
+  CHECK(array.items[0].where.begin == toml::Position{3, 3});
+  CHECK(array.items[0].where.end == toml::Position{3, 6});
+  CHECK(array.items[1].where.begin == toml::Position{3, 8});
+  CHECK(array.items[1].where.end == toml::Position{3, 11});
+  const auto* node = root.find("node");
+  REQUIRE(node != nullptr);
+  const auto& named = node->value.entries.at(0);
+  CHECK(named.key == "b c");
+  CHECK(named.where.begin == toml::Position{4, 7});
+  CHECK(named.value.entries.at(0).value.entries.at(0).where.begin == toml::Position{5, 7});
+  CHECK(root.find("none") == nullptr);
+}
+
+TEST_CASE("columns count characters, and a byte order mark is none") {
+  const toml::Node root = toml::parse(
+      "\xEF\xBB\xBF"
+      "a = ['\u00e9\u20ac', 1]");
+  CHECK(root.entries.at(0).where.begin == toml::Position{1, 1});
+  CHECK(root.entries.at(0).value.items.at(1).where.begin == toml::Position{1, 12});
+}
+
+TEST_CASE("what toml++ 3.3.0 does not survive is refused before it") {
+  CHECK(refusal("[\n[") == "1:2 a key is missing here");
+  CHECK(refusal("[") == "1:2 a key is missing here");
+  CHECK(refusal("[a.\n") == "1:4 a key is missing here");
+  CHECK(refusal(std::string("1=[[[}}}}]\0", 11)).starts_with("1:5 this array is not closed"));
+  CHECK(refusal("\u02b4 = 1").starts_with("1:1 character U+02B4 outside of a string"));
+  CHECK(refusal("a = \u02b4").starts_with("1:5 character U+02B4 outside of a string"));
+  CHECK(refusal("a = \"\xFF\"").starts_with("1:6 byte 0xFF is not UTF-8"));
+  CHECK(refusal("a = \"\xED\xA0\x80\"").starts_with("1:6 byte 0xED is not UTF-8"));
+  CHECK(refusal("a = \"\xC0\xAF\"").starts_with("1:6 byte 0xC0 is not UTF-8"));
+  CHECK(refusal("a = 1\rb = 2").starts_with("1:6 control character U+000D"));
+  CHECK(refusal("# \x07").starts_with("1:3 control character U+0007"));
+}
+
+TEST_CASE("what is not closed is reported where it opens") {
+  CHECK(refusal("a = [1,\n 2\nb = 3\n") ==
+        "1:5 this array is not closed | a ']' is missing before "
+        "line 3");
+  CHECK(refusal("a = [1,\n 2\n") ==
+        "1:5 this array is not closed | a ']' is missing before line 4");
+  CHECK(refusal("a = { b = 1\n") ==
+        "1:5 this inline table does not end on its line | a '}' is missing");
+  CHECK(refusal("a = [{ b = 1 ]") ==
+        "1:6 this inline table is not closed | a '}' is missing before "
+        "line 1");
+  CHECK(refusal("\n a = \"\"\"x\"\"\n") ==
+        "2:6 this string is not closed | it ends in three quotes");
+  CHECK(refusal("a = 'x\n") == "1:5 this string is not closed | it ends on its line");
+  CHECK(refusal("a = 1]") == "1:6 ']' closes nothing");
+  CHECK(refusal("[a\n") == "1:1 this table header is not closed | it ends in ']' on the same line");
+}
+
+TEST_CASE("size and depth have limits") {
+  CHECK(refusal(std::string((1U << 20U) + 1, ' ')) ==
+        "1:1 1048577 bytes, more than the 1048576 that a graph may have");
+  CHECK(refusal(std::string(1U << 20U, ' ')).empty());
+  CHECK(refusal("a = " + times("[", 50) + times("]", 50)).empty());
+  const std::string deep = "more than 64 levels within each other";
+  CHECK(refusal("a = " + times("[", 100'000)).find(deep) != std::string::npos);
+  CHECK(refusal("a = " + times("{a=", 100'000)).find(deep) != std::string::npos);
+  CHECK(refusal("a" + times(".a", 100'000) + " = 1").find(deep) != std::string::npos);
+  CHECK(refusal("[a" + times(".a", 100'000) + "]").find(deep) != std::string::npos);
+  CHECK(refusal("a = {b" + times(".b", 100'000) + " = 1}").find(deep) != std::string::npos);
+  CHECK(refusal("[a" + times(".a", 60) + "]\nb" + times(".b", 60) + " = 1").find(deep) !=
+        std::string::npos);
+}
+
+TEST_CASE("values of a command line") {
+  CHECK(toml::parse_value("5").integer == 5);
+  CHECK(toml::parse_value("[1, 2]").items.size() == 2);
+  CHECK(toml::parse_value("\"5 mm\"").text == "5 mm");
+  CHECK(toml::parse_value("5 mm").text == "5 mm");
+  CHECK(toml::parse_value("largest").text == "largest");
+  CHECK(toml::parse_value("").text.empty());
+  CHECK(toml::parse_value("1\nb = 2").is(toml::Kind::string));
+  CHECK(toml::parse_value("5 # five").integer == 5);
+}
+
+TEST_CASE("quoted text reads the same") {
+  const std::string odd = "quo\"te \\ \n \t \x01 \x7f \u00e9";
+  CHECK(toml::parse("a = " + toml::quoted(odd)).entries.at(0).value.text == odd);
+}

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxListed = 1000;  // files of a folder that a missing one is compared with
 
-/// The fault of one name, or "".
-struct Fault {
+/// What is wrong with one name; nothing when the message is empty.
+struct Trouble {
   std::string message;
   std::string hint;
 };
@@ -34,7 +34,7 @@ std::string neighbours_hint(const fs::path& path) {
   return did_you_mean(path.filename().string(), names);
 }
 
-Fault input_fault(const fs::path& path, const std::string& name) {
+Trouble input_trouble(const fs::path& path, const std::string& name) {
   std::error_code fault;
   const fs::file_status status = fs::status(path, fault);
   if (status.type() == fs::file_type::not_found || status.type() == fs::file_type::none) {
@@ -51,7 +51,7 @@ Fault input_fault(const fs::path& path, const std::string& name) {
 }
 
 /// The nearest folder above `path` that is there must take new files.
-Fault folder_fault(const fs::path& path, const std::string& name) {
+Trouble folder_trouble(const fs::path& path, const std::string& name) {
   std::error_code fault;
   for (fs::path folder = path.parent_path();; folder = folder.parent_path()) {
     const fs::file_status status = fs::status(folder, fault);
@@ -69,8 +69,8 @@ bool is_record(const fs::path& path) {
   return path == "run.json" || path == "report.html" || path == "study.json" || path == "study.csv";
 }
 
-Fault output_fault(const fs::path& path, const std::string& name,
-                   const std::optional<fs::path>& out) {
+Trouble output_trouble(const fs::path& path, const std::string& name,
+                       const std::optional<fs::path>& out) {
   if (path.is_absolute())
     return {fmt::format("'{}' is an absolute path", name),
             "outputs are written below --out: give a relative name"};
@@ -87,7 +87,7 @@ Fault output_fault(const fs::path& path, const std::string& name,
     return {
         fmt::format("'{}' cannot be written: it is there and is no regular file", target.string()),
         ""};
-  return folder_fault(target, name);
+  return folder_trouble(target, name);
 }
 
 /// Checks the files of all nodes; two that write one file included.
@@ -132,15 +132,15 @@ class Files {
 
   void input(const toml::Node& written, std::string& name) {
     const fs::path path = (key_->file->folder / name).lexically_normal();
-    report("E0501", written, input_fault(path, name));
+    report("E0501", written, input_trouble(path, name));
     name = path.string();
   }
 
   void output(const toml::Node& written, std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
-    const Fault fault = output_fault(path, name, check_.options.out);
-    report("E0502", written, fault);
-    if (!fault.message.empty()) return;
+    const Trouble trouble = output_trouble(path, name, check_.options.out);
+    report("E0502", written, trouble);
+    if (!trouble.message.empty()) return;
     const auto [first, added] = writers_.emplace(path.string(), node_->name);
     if (!added)
       report("E0503", written,
@@ -149,10 +149,10 @@ class Files {
     name = path.string();
   }
 
-  void report(const char* code, const toml::Node& written, const Fault& fault) const {
-    if (!fault.message.empty())
-      check_.report(*key_).error(code, written.where,
-                                 fmt::format("{}: {}", call(*node_), fault.message), fault.hint);
+  void report(const char* code, const toml::Node& written, const Trouble& trouble) const {
+    if (!trouble.message.empty())
+      check_.report(*key_).error(
+          code, written.where, fmt::format("{}: {}", call(*node_), trouble.message), trouble.hint);
   }
 
   Check& check_;

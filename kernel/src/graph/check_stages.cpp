@@ -128,12 +128,13 @@ void find_stage(const Key& key, const Check& check, Node& node) {
         .fault = Fault::plugin;
     return;
   }
-  const auto ids = check.catalog.ids();
+  const auto ids = report.helps() ? check.catalog.ids() : std::vector<std::string>{};
   std::string known = known_stages(node.use, ids);
-  report.error("E0304", key.value.where,
-               fmt::format("unknown stage '{}' in node '{}'", node.use, node.name),
-               suggest(node.use, ids),
-               known.empty() ? "no plugins found; VELUM_PLUGIN_PATH tells where they are" : known);
+  report.error(
+      "E0304", key.value.where, fmt::format("unknown stage '{}' in node '{}'", node.use, node.name),
+      suggest(node.use, ids),
+      known.empty() && report.helps() ? "no plugins found; VELUM_PLUGIN_PATH tells where they are"
+                                      : known);
 }
 
 }  // namespace

@@ -64,9 +64,10 @@ class Study {
   }
 
   void node(const std::string& name, toml::Region where) const {
-    if (check_.document.find(name) != nullptr) return;
+    if (check_.document.find(name) != nullptr || !check_.document.complete) return;
     std::vector<std::string> known;
-    for (const Draft& draft : check_.document.drafts) known.push_back(draft.name);
+    if (report_.helps())
+      for (const Draft& draft : check_.document.drafts) known.push_back(draft.name);
     report_.error("E0404", where,
                   fmt::format("the study names '{}', but there is no such node", name),
                   did_you_mean(name, known), known_list(known));

@@ -168,9 +168,11 @@ class Wiring {
   }
 
   void unknown_node(const std::string& node, const toml::Node& value) const {
+    if (!check_.document.complete) return;  // it may be in the file that could not be read
     std::vector<std::string> known;
-    for (const Draft& draft : check_.document.drafts)
-      if (draft.name != draft_.name) known.push_back(draft.name);
+    if (report().helps())
+      for (const Draft& draft : check_.document.drafts)
+        if (draft.name != draft_.name) known.push_back(draft.name);
     report().error("E0404", value.where,
                    fmt::format("{} takes from '{}', but there is no such node", self(), node),
                    did_you_mean(node, known), known_list(known));

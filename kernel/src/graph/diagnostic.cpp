@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxKnown = 12;       // names that a list of known ones shows
 constexpr std::size_t kMaxColumns = 100;    // of a line of the graph that is shown
+constexpr std::size_t kMaxLine = 10'000;    // longer lines are not shown
 constexpr std::size_t kMaxCompared = 2000;  // names that a word is compared with
 constexpr std::size_t kMaxWord = 64;        // longer words are not compared
 
@@ -85,7 +86,8 @@ Source::Source(std::string name, std::string text)
 std::string Source::line(std::uint32_t number) const {
   if (number == 0 || number > starts_.size()) return {};
   const std::string_view rest = std::string_view(text_).substr(starts_[number - 1]);
-  return std::string(rest.substr(0, rest.find_first_of("\r\n")));
+  const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+  return std::string(line.size() > kMaxLine ? "" : line);
 }
 
 Reporter Reporter::about(std::string subject) const {
@@ -96,6 +98,7 @@ Reporter Reporter::about(std::string subject) const {
 
 Diagnostic& Reporter::error(std::string code, toml::Region where, std::string message,
                             std::string hint, std::string known) const {
+  const bool shown = helps();
   Diagnostic& added = all_->emplace_back();
   added.code = std::move(code);
   added.file = source_->name();
@@ -103,7 +106,7 @@ Diagnostic& Reporter::error(std::string code, toml::Region where, std::string me
   added.message = std::move(message);
   added.hint = std::move(hint);
   added.known = std::move(known);
-  added.source_line = source_->line(where.begin.line);
+  if (shown) added.source_line = source_->line(where.begin.line);
   return added;
 }
 

@@ -33,7 +33,7 @@ class Source {
   Source(std::string name, std::string text);
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// The line, counted from 1, without its end; empty when there is none.
+  /// The line, counted from 1, without its end; empty when there is none or it is overlong.
   [[nodiscard]] std::string line(std::uint32_t number) const;
 
  private:
@@ -49,6 +49,8 @@ class Reporter {
   /// The same with what the messages are about: "of node 'down' (resampling.voxel_grid)".
   [[nodiscard]] Reporter about(std::string subject) const;
   [[nodiscard]] const std::string& subject() const { return subject_; }
+  /// Are there so few mistakes yet that showing the line and what was meant is worth the cost?
+  [[nodiscard]] bool helps() const { return all_->size() < 500; }
   /// Adds a mistake; the caller may fill in the rest of it.
   Diagnostic& error(std::string code, toml::Region where, std::string message,  // NOLINT
                     std::string hint = "", std::string known = "") const;

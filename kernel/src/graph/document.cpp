@@ -77,6 +77,7 @@ class Reader {
       file.root = toml::parse(file.source.text());
     } catch (const toml::SyntaxError& error) {
       report.error("E0101", error.where(), error.what(), error.hint());
+      document_.complete = false;
       return false;
     }
     head(file, report);
@@ -104,7 +105,7 @@ class Reader {
         if (main) document_.study = &entry;
       } else if (std::ranges::find(known, entry.key) == known.end()) {
         report.error("E0201", entry.where, fmt::format("unknown key '{}'", entry.key),
-                     did_you_mean(entry.key, known), known_list(known));
+                     report.helps() ? did_you_mean(entry.key, known) : "", known_list(known));
       }
     }
   }
@@ -193,6 +194,7 @@ class Reader {
     } catch (const Error& error) {
       report.error("E0104", where, fmt::format("'{}' {}", name, error.what()),
                    "the name is relative to the file that includes it");
+      document_.complete = false;
       return;
     }
     open_.push_back(path);

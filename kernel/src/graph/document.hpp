@@ -49,6 +49,7 @@ struct Document {
   std::string units;
   std::vector<Draft> drafts;  ///< by name
   const toml::Entry* study = nullptr;
+  bool complete = true;  ///< false when an included file could not be read
 
   [[nodiscard]] const Draft* find(std::string_view name) const;
 };

@@ -58,10 +58,8 @@ Json quantities() {
 
 void limit(Json& schema, const Range& range) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (range.low > -kInfinity)
-    schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
-  if (range.high < kInfinity)
-    schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
+  if (range.low > -kInfinity) schema[range.low_open ? "exclusiveMinimum" : "minimum"] = range.low;
+  if (range.high < kInfinity) schema[range.high_open ? "exclusiveMaximum" : "maximum"] = range.high;
 }
 
 Json object_of(const std::vector<Parameter>& parameters);
