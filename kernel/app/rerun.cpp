@@ -60,7 +60,7 @@ int rerun(const run::Json& record, const Options& options, const fs::path& out) 
   plugins::Registry registry;
   const graph::Loaded loaded = graph::load_text(
       record.at("graph").at("resolved").get<std::string>(),
-      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = out});
+      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = fs::absolute(out)});
   if (!loaded.graph) {
     complain(graph::format(loaded.diagnostics));
     return graph::exit_status(loaded.diagnostics);

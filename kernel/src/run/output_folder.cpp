@@ -94,8 +94,8 @@ OutputFolder::OutputFolder(const fs::path& path, const std::string& graph,
     if (fs::file_size(path_ / kLockName, unknown) == 0) fs::remove(path_ / kLockName, unknown);
     throw;
   }
-  remove_earlier();
   note(graph, files);
+  remove_earlier();
 }
 
 OutputFolder::~OutputFolder() {
@@ -169,12 +169,15 @@ void OutputFolder::remove_earlier() {
   fs::remove_all(path_ / kScratchName, ignored);
 }
 
+// Before anything is removed, so that whenever this run is killed the next one knows what is ours.
 void OutputFolder::note(const std::string& graph, const std::vector<std::string>& files) {
   std::string text = fmt::format("{}\n{}\n{}\n{}\n", ::getpid(), graph, kRecordName, kReportName);
   for (const std::string& file : files) text += file + "\n";
+  for (const fs::path& file : earlier_) text += file.string() + "\n";
   try {
-    if (::ftruncate(lock_.get(), 0) != 0) throw std::system_error(errno, std::generic_category());
     files::write_fully(lock_.get(), std::as_bytes(std::span(text)));
+    if (::ftruncate(lock_.get(), static_cast<off_t>(text.size())) != 0)
+      throw std::system_error(errno, std::generic_category());
   } catch (const std::system_error& error) {
     refuse(path_, "cannot be written: " + files::reason(error.code().value()), "");
   }

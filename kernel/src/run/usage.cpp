@@ -48,6 +48,7 @@ PeakMeter::PeakMeter()
 void PeakMeter::mark() {
   const std::lock_guard lock(mutex_);
   if (!reset_) return;
+  read();
   if (::write(reset_.get(), "5", 1) != 1) reset_ = files::Descriptor();
 }
 

@@ -9,15 +9,19 @@ namespace {
 
 struct Write {
   velum::OutputFile file;
+  int times = 1;
 
   static auto about() {
     return velum::About<Write>("Writes the number of points.")
         .in("cloud")
         .param(&Write::file, "file", "to write")
-        .required();
+        .required()
+        .param(&Write::times, "times", "that it is written", velum::at_least(1));
   }
   void operator()(const velum::Cloud& cloud, velum::Context&) const {
-    velum::write_file(file.path, std::to_string(cloud.size()) + "\n");
+    velum::AtomicFile output(file.path);
+    for (int i = 0; i < times; ++i) output.write(std::to_string(cloud.size()) + "\n");
+    output.commit();
   }
 };
 
