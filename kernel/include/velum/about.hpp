@@ -62,61 +62,72 @@ struct PlainKind {
   static M from(const Setting& setting) { return static_cast<M>(std::get<Stored>(setting.value)); }
   static Setting to(const M& member) { return {static_cast<Stored>(member)}; }
 };
-template <> struct Kind<bool> : PlainKind<bool, ParameterType::boolean, bool> {};
-template <> struct Kind<int> : PlainKind<int, ParameterType::integer, std::int64_t> {};
-template <> struct Kind<std::int64_t>
-    : PlainKind<std::int64_t, ParameterType::integer, std::int64_t> {};
-template <> struct Kind<double> : PlainKind<double, ParameterType::number, double> {};
-template <> struct Kind<std::string> : PlainKind<std::string, ParameterType::text, std::string> {};
-template <> struct Kind<Length> : PlainKind<Length, ParameterType::length, Length> {};
-template <> struct Kind<Angle> {
+template <>
+struct Kind<bool> : PlainKind<bool, ParameterType::boolean, bool> {};
+template <>
+struct Kind<int> : PlainKind<int, ParameterType::integer, std::int64_t> {};
+template <>
+struct Kind<std::int64_t> : PlainKind<std::int64_t, ParameterType::integer, std::int64_t> {};
+template <>
+struct Kind<double> : PlainKind<double, ParameterType::number, double> {};
+template <>
+struct Kind<std::string> : PlainKind<std::string, ParameterType::text, std::string> {};
+template <>
+struct Kind<Length> : PlainKind<Length, ParameterType::length, Length> {};
+template <>
+struct Kind<Angle> {
   static constexpr ParameterType type = ParameterType::angle;
   static Angle from(const Setting& setting) { return {std::get<double>(setting.value)}; }
   static Setting to(const Angle& angle) { return {angle.radians}; }
 };
-template <> struct Kind<Duration> {
+template <>
+struct Kind<Duration> {
   static constexpr ParameterType type = ParameterType::duration;
   static Duration from(const Setting& setting) { return {std::get<double>(setting.value)}; }
   static Setting to(const Duration& duration) { return {duration.seconds}; }
 };
-template <> struct Kind<Eigen::Vector3d> {
+template <>
+struct Kind<Eigen::Vector3d> {
   static constexpr ParameterType type = ParameterType::vector;
   static Eigen::Vector3d from(const Setting& setting) {
     const auto& list = std::get<Setting::List>(setting.value);
     return {std::get<double>(list.at(0).value), std::get<double>(list.at(1).value),
             std::get<double>(list.at(2).value)};
   }
-  static Setting to(const Eigen::Vector3d& v) {
-    return {Setting::List{{v.x()}, {v.y()}, {v.z()}}};
-  }
+  static Setting to(const Eigen::Vector3d& v) { return {Setting::List{{v.x()}, {v.y()}, {v.z()}}}; }
 };
-template <> struct Kind<Place> {
+template <>
+struct Kind<Place> {
   static constexpr ParameterType type = ParameterType::point;
   static Place from(const Setting& setting) { return {Kind<Eigen::Vector3d>::from(setting)}; }
   static Setting to(const Place& place) { return Kind<Eigen::Vector3d>::to(place.metres); }
 };
-template <> struct Kind<LengthUnit> {
+template <>
+struct Kind<LengthUnit> {
   static constexpr ParameterType type = ParameterType::length_unit;
   static LengthUnit from(const Setting& setting) {
     return length_unit(std::get<std::string>(setting.value));
   }
   static Setting to(const LengthUnit&) { return {}; }  // unset: the graph's units
 };
-template <> struct Kind<InputFile> {
+template <>
+struct Kind<InputFile> {
   static constexpr ParameterType type = ParameterType::input_file;
   static InputFile from(const Setting& setting) { return {std::get<std::string>(setting.value)}; }
   static Setting to(const InputFile& file) {
     return file.path.empty() ? Setting{} : Setting{file.path.string()};
   }
 };
-template <> struct Kind<OutputFile> {
+template <>
+struct Kind<OutputFile> {
   static constexpr ParameterType type = ParameterType::output_file;
   static OutputFile from(const Setting& setting) { return {std::get<std::string>(setting.value)}; }
   static Setting to(const OutputFile& file) {
     return file.path.empty() ? Setting{} : Setting{file.path.string()};
   }
 };
-template <class M> struct Kind<std::optional<M>> : Kind<M> {
+template <class M>
+struct Kind<std::optional<M>> : Kind<M> {
   static std::optional<M> from(const Setting& setting) {
     if (!setting.is_set()) return std::nullopt;
     return Kind<M>::from(setting);
@@ -125,7 +136,8 @@ template <class M> struct Kind<std::optional<M>> : Kind<M> {
     return member ? Kind<M>::to(*member) : Setting{};
   }
 };
-template <class M> struct Kind<std::vector<M>> : Kind<M> {
+template <class M>
+struct Kind<std::vector<M>> : Kind<M> {
   static std::vector<M> from(const Setting& setting) {
     std::vector<M> members;
     for (const Setting& entry : std::get<Setting::List>(setting.value))
@@ -139,10 +151,14 @@ template <class M> struct Kind<std::vector<M>> : Kind<M> {
   }
 };
 
-template <class M> inline constexpr bool is_optional = false;
-template <class M> inline constexpr bool is_optional<std::optional<M>> = true;
-template <class M> inline constexpr bool is_vector = false;
-template <class M> inline constexpr bool is_vector<std::vector<M>> = true;
+template <class M>
+inline constexpr bool is_optional = false;
+template <class M>
+inline constexpr bool is_optional<std::optional<M>> = true;
+template <class M>
+inline constexpr bool is_vector = false;
+template <class M>
+inline constexpr bool is_vector<std::vector<M>> = true;
 
 template <class T, class M>
 Parameter make_parameter(M T::*member, std::string name, std::string doc, Range range) {
@@ -337,8 +353,12 @@ class About {
     info_.parameters.push_back(std::move(p));
     return *this;
   }
-  About& required() { return last([](Parameter& p) { p.required = true; }); }
-  About& advanced() { return last([](Parameter& p) { p.advanced = true; }); }
+  About& required() {
+    return last([](Parameter& p) { p.required = true; });
+  }
+  About& advanced() {
+    return last([](Parameter& p) { p.advanced = true; });
+  }
   About& was(std::string name) {
     return last([&](Parameter& p) { p.old_names.push_back(std::move(name)); });
   }

@@ -82,7 +82,8 @@ class VELUM_API Cloud {
 };
 
 /// All points of `clouds` about the first one's origin: the columns that every cloud has, and all
-/// sensors (the `sensor` column is renumbered). Throws Error when columns of one name differ in type.
+/// sensors (the `sensor` column is renumbered). Throws Error when columns of one name differ in
+/// type.
 VELUM_API Cloud merge(std::span<const Cloud> clouds);
 
 /// Frame and extent of a set of positions.

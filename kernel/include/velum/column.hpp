@@ -19,9 +19,12 @@ enum class Scalar : std::uint8_t { u8, i32, f32, f64 };
 
 template <class T>
 inline constexpr Scalar kScalarOf = [] {
-  if constexpr (std::is_same_v<T, std::uint8_t>) return Scalar::u8;
-  else if constexpr (std::is_same_v<T, std::int32_t>) return Scalar::i32;
-  else if constexpr (std::is_same_v<T, float>) return Scalar::f32;
+  if constexpr (std::is_same_v<T, std::uint8_t>)
+    return Scalar::u8;
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return Scalar::i32;
+  else if constexpr (std::is_same_v<T, float>)
+    return Scalar::f32;
   else {
     static_assert(std::is_same_v<T, double>, "columns hold u8, i32, f32 or f64");
     return Scalar::f64;

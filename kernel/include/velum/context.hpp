@@ -18,7 +18,8 @@ namespace velum {
 /// Which direction of a measure is the good one.
 enum class Better { lower, higher, neither };
 
-/// What a stage may ask of the kernel while it runs. No stage prints, exits or touches global state.
+/// What a stage may ask of the kernel while it runs. No stage prints, exits or touches global
+/// state.
 class VELUM_API Context {
  public:
   Context() = default;

@@ -33,9 +33,9 @@ class VELUM_API FileContent {
 };
 
 /// Writes a file so that its final name only ever holds the whole of it: written aside in the same
-/// folder, flushed to the disk, read back and compared, then renamed. The destructor removes what was
-/// not committed. All failures throw Error (Fault::output) naming the file and the reason; a target
-/// that exists and is not a regular file is refused.
+/// folder, flushed to the disk, read back and compared, then renamed. The destructor removes what
+/// was not committed. All failures throw Error (Fault::output) naming the file and the reason; a
+/// target that exists and is not a regular file is refused.
 class VELUM_API AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path target);

@@ -6,7 +6,8 @@
 
 namespace velum {
 
-/// Triangles over a cloud of vertices, whose columns are per-vertex values. Immutable, cheap to copy.
+/// Triangles over a cloud of vertices, whose columns are per-vertex values. Immutable, cheap to
+/// copy.
 class VELUM_API Mesh {
  public:
   Mesh();

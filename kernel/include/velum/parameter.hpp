@@ -28,9 +28,13 @@ struct Length {
   constexpr operator double() const { return value; }  // NOLINT(google-explicit-constructor)
 };
 /// "2 spacing" as a default: `Length size = velum::spacings(2);`
-constexpr Length spacings(double factor) { return {factor, Length::Of::spacing}; }
+constexpr Length spacings(double factor) {
+  return {factor, Length::Of::spacing};
+}
 /// "1 % diagonal" as a default: `Length size = velum::diagonals(0.01);`
-constexpr Length diagonals(double factor) { return {factor, Length::Of::diagonal}; }
+constexpr Length diagonals(double factor) {
+  return {factor, Length::Of::diagonal};
+}
 
 /// An angle [rad]; bare numbers in a graph are degrees.
 struct Angle {
@@ -72,12 +76,28 @@ struct Setting {
   [[nodiscard]] bool is_set() const { return value.index() != 0; }
   bool operator==(const Setting& other) const;
 };
-inline bool operator==(const Length& a, const Length& b) { return a.value == b.value && a.of == b.of; }
-inline bool Setting::operator==(const Setting& other) const { return value == other.value; }
+inline bool operator==(const Length& a, const Length& b) {
+  return a.value == b.value && a.of == b.of;
+}
+inline bool Setting::operator==(const Setting& other) const {
+  return value == other.value;
+}
 
 enum class ParameterType : std::uint8_t {
-  boolean, integer, number, text, choice, length, angle, duration, vector, point, length_unit,
-  input_file, output_file, rows
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  length,
+  angle,
+  duration,
+  vector,
+  point,
+  length_unit,
+  input_file,
+  output_file,
+  rows
 };
 /// "boolean", "integer", ... as in `velum describe --json`.
 VELUM_API std::string_view name_of(ParameterType type);
@@ -93,10 +113,18 @@ struct Range {
   }
   [[nodiscard]] bool unbounded() const { return contains(-1e308 * 10) && contains(1e308 * 10); }
 };
-constexpr Range above(double low) { return {.low = low, .low_open = true}; }
-constexpr Range at_least(double low) { return {.low = low}; }
-constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
-constexpr Range anything() { return {}; }
+constexpr Range above(double low) {
+  return {.low = low, .low_open = true};
+}
+constexpr Range at_least(double low) {
+  return {.low = low};
+}
+constexpr Range between(double low, double high) {
+  return {.low = low, .high = high};
+}
+constexpr Range anything() {
+  return {};
+}
 
 /// One allowed value of a choice.
 struct ChoiceOption {

@@ -58,8 +58,10 @@ struct Unwrap<std::variant<A...>> {
     return std::visit(
         [](const auto& value) -> std::variant<A...> {
           using V = std::remove_cvref_t<decltype(value)>;
-          if constexpr ((std::is_same_v<V, A> || ...)) return value;
-          else throw Error(Fault::graph, "a value of a type that the input does not take");
+          if constexpr ((std::is_same_v<V, A> || ...))
+            return value;
+          else
+            throw Error(Fault::graph, "a value of a type that the input does not take");
         },
         wired.front());
   }
@@ -123,14 +125,15 @@ constexpr PluginEntry make_entry(const char* id) {
 }  // namespace velum
 
 /// Makes the translation unit a plugin that holds the stage `Type`. The build defines
-/// VELUM_STAGE_ID, which comes from the plugin's place: resampling/voxel_grid → resampling.voxel_grid.
-#define VELUM_STAGE(Type)                                                                   \
-  extern "C" {                                                                              \
-  [[gnu::visibility("default")]] extern const velum::PluginEntry velum_entry;               \
-  [[gnu::section(".velum"), gnu::used]]                                                     \
-  constexpr velum::PluginEntry velum_entry = velum::detail::make_entry(VELUM_STAGE_ID);     \
-  [[gnu::visibility("default")]] const velum::StageType* velum_stage() {                    \
-    static const velum::detail::StageAdapter<Type> stage(VELUM_STAGE_ID);                   \
-    return &stage;                                                                          \
-  }                                                                                         \
+/// VELUM_STAGE_ID, which comes from the plugin's place: resampling/voxel_grid →
+/// resampling.voxel_grid.
+#define VELUM_STAGE(Type)                                                          \
+  extern "C" {                                                                     \
+  [[gnu::visibility("default")]] extern const velum::PluginEntry velum_entry;      \
+  [[gnu::section(".velum"), gnu::used]] constexpr velum::PluginEntry velum_entry = \
+      velum::detail::make_entry(VELUM_STAGE_ID);                                   \
+  [[gnu::visibility("default")]] const velum::StageType* velum_stage() {           \
+    static const velum::detail::StageAdapter<Type> stage(VELUM_STAGE_ID);          \
+    return &stage;                                                                 \
+  }                                                                                \
   }

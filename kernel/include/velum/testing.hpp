@@ -68,10 +68,10 @@ class VELUM_API Stage {
 };
 
 /// Runs the stage on every degenerate input (0 to 3 points, all equal, collinear, coplanar, 1e7 m
-/// away, scaled by 1e-6, cancelled at once), on two instances in two threads, with one seed twice and
-/// with 1 and 2 threads. Returns what was broken, one line each: a crash is not caught, any error that
-/// is not velum::Error is a fault, and so is a result that is not sound or not the same again.
-/// `settings` are those that the stage requires.
+/// away, scaled by 1e-6, cancelled at once), on two instances in two threads, with one seed twice
+/// and with 1 and 2 threads. Returns what was broken, one line each: a crash is not caught, any
+/// error that is not velum::Error is a fault, and so is a result that is not sound or not the same
+/// again. `settings` are those that the stage requires.
 VELUM_API std::vector<std::string> conformance(
     const std::string& id, const std::map<std::string, std::string>& settings = {});
 

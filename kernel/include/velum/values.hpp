@@ -57,24 +57,38 @@ struct Correspondences {
 using Value = std::variant<Cloud, Mesh, Surface, Transform, Clusters, Correspondences, Table>;
 /// Position of each type in Value.
 enum class ValueType : std::uint8_t {
-  cloud, mesh, surface, transform, clusters, correspondences, table
+  cloud,
+  mesh,
+  surface,
+  transform,
+  clusters,
+  correspondences,
+  table
 };
 
 template <class T>
 inline constexpr ValueType kValueType = [] {
-  if constexpr (std::is_same_v<T, Cloud>) return ValueType::cloud;
-  else if constexpr (std::is_same_v<T, Mesh>) return ValueType::mesh;
-  else if constexpr (std::is_same_v<T, Surface>) return ValueType::surface;
-  else if constexpr (std::is_same_v<T, Transform>) return ValueType::transform;
-  else if constexpr (std::is_same_v<T, Clusters>) return ValueType::clusters;
-  else if constexpr (std::is_same_v<T, Correspondences>) return ValueType::correspondences;
+  if constexpr (std::is_same_v<T, Cloud>)
+    return ValueType::cloud;
+  else if constexpr (std::is_same_v<T, Mesh>)
+    return ValueType::mesh;
+  else if constexpr (std::is_same_v<T, Surface>)
+    return ValueType::surface;
+  else if constexpr (std::is_same_v<T, Transform>)
+    return ValueType::transform;
+  else if constexpr (std::is_same_v<T, Clusters>)
+    return ValueType::clusters;
+  else if constexpr (std::is_same_v<T, Correspondences>)
+    return ValueType::correspondences;
   else {
     static_assert(std::is_same_v<T, Table>, "not a type that flows between nodes");
     return ValueType::table;
   }
 }();
 
-inline ValueType type_of(const Value& value) { return static_cast<ValueType>(value.index()); }
+inline ValueType type_of(const Value& value) {
+  return static_cast<ValueType>(value.index());
+}
 /// "cloud", "mesh", ...
 VELUM_API std::string_view name_of(ValueType type);
 /// Nothing in it: no points, no triangles, no clusters. Tables and transforms are never empty.
