@@ -13,6 +13,7 @@ namespace velum::app {
 namespace {
 
 constexpr int kBar = 24;
+constexpr std::size_t kWide = 72;
 
 std::string plural(std::size_t count, const char* noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
@@ -27,12 +28,24 @@ std::string in_words(const run::NodeRecord& node) {
   return text;
 }
 
-std::string in_words(const run::Measures& measures) {
-  std::string text;
-  for (const auto& [name, measure] : measures)
-    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", name, measure.value,
-                        measure.unit.empty() ? "" : " ", measure.unit);
-  return text;
+std::string number(double value) {
+  constexpr double kExact = 1e15;
+  const bool whole = std::abs(value) < kExact && value == std::floor(value);
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
+}
+
+// Lines of at most kWide characters.
+std::vector<std::string> in_words(const run::Measures& measures) {
+  std::vector<std::string> lines;
+  for (const auto& [name, measure] : measures) {
+    const std::string word = fmt::format("{} {}{}{}", name, number(measure.value),
+                                         measure.unit.empty() ? "" : " ", measure.unit);
+    if (lines.empty() || lines.back().size() + word.size() > kWide)
+      lines.push_back(word);
+    else
+      lines.back() += ", " + word;
+  }
+  return lines;
 }
 
 class TextReporter final : public Reporter {
@@ -60,8 +73,8 @@ class TextReporter final : public Reporter {
     const std::string words = in_words(node);
     line(fmt::format("  {:<7} {:<{}} {:9.3f} s{}{}", run::name_of(node.status), node.name, width_,
                      node.seconds, words.empty() ? "" : "  ", words));
-    if (!node.measures.empty())
-      line(fmt::format("  {:<7} {:<{}}  {}", "", "", width_, in_words(node.measures)));
+    for (const std::string& measures : in_words(node.measures))
+      line(fmt::format("  {:<7} {:<{}}  {}", "", "", width_, measures));
     if (!node.failure) return;
     erase_bars();
     complain(run::format(*node.failure));
