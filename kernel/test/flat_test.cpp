@@ -94,8 +94,10 @@ fs::path written(const Folder& folder, const Results& results, const char* name 
   return path;
 }
 
-/// Without the flush of write_file, which would make thousands of files take minutes.
+/// Without a flush, which would make thousands of files take minutes: neither that of write_file
+/// nor that of file systems which flush what is written over.
 void scribble(const fs::path& path, std::string_view bytes) {
+  fs::remove(path);
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
