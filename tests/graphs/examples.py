@@ -22,7 +22,7 @@ def main():
         if run.returncode != 0:
             faults.append(f"{example} ended with {run.returncode}:\n{run.stderr[-1500:]}")
     print(f"{len(examples) - len(faults)} of {len(examples)} examples run")
-    sys.exit("\n".join(faults))
+    sys.exit("\n".join(faults) or 0)
 
 
 if __name__ == "__main__":

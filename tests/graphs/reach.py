@@ -40,7 +40,7 @@ def main():
             faults.append(f"{name} is {value}, wanted {limit}")
         elif "is" in limit and value != limit["is"]:
             faults.append(f"{name} is {value}, wanted {limit['is']}")
-    sys.exit("\n".join(faults))
+    sys.exit("\n".join(faults) or 0)
 
 
 if __name__ == "__main__":
