@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace velum;
 using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
 
 enum class Metric { point, plane };
 struct Pick {
@@ -92,15 +93,15 @@ TEST_CASE("describe --json gives all that is known, in SI units") {
   CHECK(json["id"] == "testing.everything");
   CHECK(json["determinism"] == "seeded");
   CHECK(json["licence"] == "BSD-3-Clause");
-  CHECK(json["references"] == nlohmann::json{"Besl and McKay 1992"});
+  CHECK(json["references"] == Json{"Besl and McKay 1992"});
   CHECK(json["example"] == "format = 1\n");
-  CHECK(json["inputs"][0]["type"] == nlohmann::json{"cloud", "mesh"});
+  CHECK(json["inputs"][0]["type"] == Json{"cloud", "mesh"});
   CHECK(json["inputs"][0]["needs"][0] ==
-        nlohmann::json{{"column", "normals"}, {"when", {{"metric", "plane"}}}});
+        Json{{"column", "normals"}, {"when", {{"metric", "plane"}}}});
   CHECK(json["inputs"][1]["type"] == "cloud");
-  CHECK(json["inputs"][1]["needs"] == nlohmann::json{"normals"});
+  CHECK(json["inputs"][1]["needs"] == Json{"normals"});
   CHECK(json["inputs"][2]["many"] == true);
-  CHECK(json["outputs"][0]["adds"] == nlohmann::json{"distance"});
+  CHECK(json["outputs"][0]["adds"] == Json{"distance"});
   CHECK(json["outputs"][1]["type"] == "table");
 
   const auto& parameters = json["parameters"];
@@ -143,13 +144,15 @@ TEST_CASE("the example is read without its licence lines") {
 TEST_CASE("the list has summaries, what is refused and what is hidden") {
   const Folder folder;
   ::setenv("XDG_CACHE_HOME", folder.path.c_str(), 1);
-  const fs::path bad = fs::path(VELUM_BINARY_DIR) / "test-plugins";
-  fs::create_directories(folder.path / "other" / "bad");
-  fs::copy(bad / "bad" / "sound.so", folder.path / "other" / "bad");
-  fs::copy(bad / "bad" / "crash.so", folder.path / "other" / "bad");
-  std::ofstream(folder.path / "other" / "bad" / "README.so") << "no name of a stage";
-  const auto all = plugins::list_plugins({folder.path / "other", bad / "none", bad / "."}, "bad");
-  REQUIRE(all.size() > 5);
+  const fs::path built = fs::path(VELUM_BINARY_DIR) / "test-plugins" / "bad";
+  for (const char* place : {"first/bad", "second/bad"}) fs::create_directories(folder.path / place);
+  for (const char* name : {"sound", "crash", "not_a_plugin", "undefined_symbol"})
+    fs::copy(built / (std::string(name) + ".so"), folder.path / "first/bad");
+  fs::copy(built / "sound.so", folder.path / "second/bad");
+  std::ofstream(folder.path / "first/bad/README.so") << "no name of a stage";
+  const auto all = plugins::list_plugins(
+      {folder.path / "first", folder.path / "none", folder.path / "second"}, "bad");
+  REQUIRE(all.size() == 4);
   CHECK(std::is_sorted(all.begin(), all.end(),
                        [](const auto& a, const auto& b) { return a.id < b.id; }));
   for (const auto& listed : all) {
@@ -163,7 +166,7 @@ TEST_CASE("the list has summaries, what is refused and what is hidden") {
     if (listed.id == "bad.undefined_symbol")
       CHECK_THAT(listed.refused, Contains("undefined symbol"));
   }
-  CHECK(plugins::list_plugins({bad}, "good").empty());
+  CHECK(plugins::list_plugins({folder.path / "first"}, "good").empty());
 }
 
 TEST_CASE("a new plugin outside a checkout is a project of its own") {

@@ -15,7 +15,6 @@
 #include "plugins/registry.hpp"
 #include "run/local_context.hpp"
 #include "velum/files.hpp"
-#include "velum/testing.hpp"
 
 namespace {
 
@@ -95,11 +94,6 @@ PluginEntry entry_of(const std::string& content) {
 std::string with_entry(std::string content, const PluginEntry& entry) {
   std::memcpy(content.data() + entry_in(content), &entry, sizeof(entry));
   return content;
-}
-
-Cloud small_cloud() {
-  static const Cloud cloud{Points(Points::Random(3, 10))};
-  return cloud;
 }
 
 }  // namespace
@@ -314,11 +308,15 @@ TEST_CASE("a probe is remembered until the file changes; damage of the memory co
   CHECK(plugins::probe(file).summary == "Gives its cloud back.");
   CHECK(folder.remembered() == 1);
 
-  const auto begin = std::chrono::steady_clock::now();
-  constexpr int kTimes = 20;
-  for (int i = 0; i < kTimes; ++i) CHECK(plugins::probe(file).quarantined.empty());
-  const std::chrono::duration<double> each = (std::chrono::steady_clock::now() - begin) / kTimes;
-  CHECK(each.count() < 1e-3);
+  // The quickest of several: the machine may have other things to do.
+  std::chrono::duration<double> quickest(1.0);
+  for (int i = 0; i < 20; ++i) {
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(plugins::probe(file).quarantined.empty());
+    quickest =
+        std::min<std::chrono::duration<double>>(quickest, std::chrono::steady_clock::now() - begin);
+  }
+  CHECK(quickest.count() < 1e-3);
 
   folder.put("sound", content_of("crash"));
   CHECK_THAT(plugins::probe(file).quarantined, Contains("crashes"));
@@ -369,30 +367,4 @@ TEST_CASE("the plugin path: order, empty entries, files that hide others") {
   for (const char* bad :
        {"", "mls", ".mls", "a.", "a.b.c", "A.b", "a.b-c", "2a.b", "a/b.c", "a. b"})
     CHECK_FALSE(plugins::is_id(bad));
-}
-
-TEST_CASE("test::Stage runs one stage as the kernel would") {
-  ::setenv("VELUM_PLUGIN_PATH", kPlugins.c_str(), 1);
-  const auto outcome = test::Stage("bad.sound").set("size", "5 mm").run(small_cloud());
-  CHECK(outcome.cloud().size() == 10);
-  CHECK(outcome.measure("size") == 0.005);
-  CHECK(test::Stage("bad.sound").set("size", 2.0).run(small_cloud()).measure("size") == 2.0);
-  const double spacing = small_cloud().spacing();
-  CHECK(test::Stage("bad.sound").set("size", "2 spacing").run(small_cloud()).measure("size") ==
-        Approx(2 * spacing));
-
-  const auto fault = [](auto&& attempt) { return error_of(attempt).fault(); };
-  CHECK(fault([] { test::Stage("bad.sound").set("sice", "5 mm"); }) == Fault::graph);
-  CHECK(fault([] { test::Stage("bad.sound").set("size", "five"); }) == Fault::graph);
-  CHECK(fault([] { test::Stage("bad.sound").set("size", "-5 mm"); }) == Fault::graph);
-  CHECK(fault([] { test::Stage("bad.sound").run(); }) == Fault::graph);
-  CHECK(fault([] { test::Stage("bad.sound").run(Mesh()); }) == Fault::graph);
-  CHECK(fault([] { test::Stage("bad.sound").run(small_cloud(), small_cloud()); }) == Fault::graph);
-  CHECK(fault([] {
-          test::Stage("bad.sound").in_many({small_cloud(), small_cloud()}).run();
-        }) == Fault::graph);
-  const Error asked =
-      error_of([] { test::Stage("bad.sound").set("fail", "true").run(small_cloud()); });
-  CHECK(asked.fault() == Fault::input);
-  CHECK(asked.where() == "here:1");
 }

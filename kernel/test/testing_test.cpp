@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-// What the checks that every plugin runs find, and that they find nothing where nothing is.
+// One stage run alone; what the checks that every plugin runs find, and that they find nothing
+// where nothing is.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -22,7 +23,50 @@ std::string faults(const std::string& how) {
   return all;
 }
 
+Cloud small_cloud() {
+  static const Cloud cloud{Points(Points::Random(3, 10))};
+  return cloud;
+}
+
+/// The error with which `attempt` ends.
+template <class Attempt>
+Error error_of(const Attempt& attempt) {
+  try {
+    attempt();
+  } catch (const Error& error) {
+    return error;
+  }
+  FAIL("no error");
+  throw std::logic_error("unreachable");
+}
+
 }  // namespace
+
+TEST_CASE("test::Stage runs one stage as the kernel would") {
+  ::setenv("VELUM_PLUGIN_PATH", VELUM_BINARY_DIR "/test-plugins", 1);
+  const auto outcome = test::Stage("bad.sound").set("size", "5 mm").run(small_cloud());
+  CHECK(outcome.cloud().size() == 10);
+  CHECK(outcome.measure("size") == 0.005);
+  CHECK(test::Stage("bad.sound").set("size", 2.0).run(small_cloud()).measure("size") == 2.0);
+  const double spacing = small_cloud().spacing();
+  CHECK(test::Stage("bad.sound").set("size", "2 spacing").run(small_cloud()).measure("size") ==
+        Approx(2 * spacing));
+
+  const auto fault = [](auto&& attempt) { return error_of(attempt).fault(); };
+  CHECK(fault([] { test::Stage("bad.sound").set("sice", "5 mm"); }) == Fault::graph);
+  CHECK(fault([] { test::Stage("bad.sound").set("size", "five"); }) == Fault::graph);
+  CHECK(fault([] { test::Stage("bad.sound").set("size", "-5 mm"); }) == Fault::graph);
+  CHECK(fault([] { test::Stage("bad.sound").run(); }) == Fault::graph);
+  CHECK(fault([] { test::Stage("bad.sound").run(Mesh()); }) == Fault::graph);
+  CHECK(fault([] { test::Stage("bad.sound").run(small_cloud(), small_cloud()); }) == Fault::graph);
+  CHECK(fault([] {
+          test::Stage("bad.sound").in_many({small_cloud(), small_cloud()}).run();
+        }) == Fault::graph);
+  const Error asked =
+      error_of([] { test::Stage("bad.sound").set("fail", "true").run(small_cloud()); });
+  CHECK(asked.fault() == Fault::input);
+  CHECK(asked.where() == "here:1");
+}
 
 TEST_CASE("a stage that keeps its promises has no faults") {
   CHECK(faults("nothing").empty());

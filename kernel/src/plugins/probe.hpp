@@ -19,7 +19,11 @@ struct Probed {
 };
 
 /// How long opening a plugin may take.
+#if defined(VELUM_SANITIZED)
+inline constexpr std::chrono::milliseconds kProbeTime{30000};  // sanitizers are slow to begin
+#else
 inline constexpr std::chrono::milliseconds kProbeTime{5000};
+#endif
 
 /// Opens `file` in a child process that does nothing else.
 Probed probe_afresh(const std::filesystem::path& file,
