@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include <velum/stage.hpp>
+
+#include <algorithm>
+#include <numbers>
+
+#include "sail/sample.hpp"
+#include "sail/shape.hpp"
+
+namespace {
+
+enum class Edge { automatic, as_is, compensated };
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+velum::Table sections_of(const velum::sail::Shape& shape) {
+  velum::Table table({{"height", ""},
+                      {"z", "m"},
+                      {"chord", "m"},
+                      {"camber", "%"},
+                      {"draft", "%"},
+                      {"twist", "deg"},
+                      {"entry", "deg"},
+                      {"exit", "deg"}});
+  const auto& sections = shape.sections;
+  const auto lowest =
+      std::min_element(sections.begin(), sections.end(),
+                       [](const auto& a, const auto& b) { return a.height < b.height; });
+  for (const velum::sail::Section& one : sections)
+    table.add({one.height, one.z, one.chord, 100.0 * one.camber, 100.0 * one.draft,
+               degrees(one.angle - lowest->angle), degrees(one.entry), degrees(one.exit)});
+  return table;
+}
+
+velum::Table corners_of(const velum::sail::Shape& shape) {
+  velum::Table table({{"corner", ""}, {"x", "m"}, {"y", "m"}, {"z", "m"}});
+  const auto add = [&](const char* name, const Eigen::Vector3d& at) {
+    table.add({std::string(name), at.x(), at.y(), at.z()});
+  };
+  add("tack", shape.tack);
+  add("clew", shape.clew);
+  add("head", shape.head);
+  add("peak", shape.peak);
+  return table;
+}
+
+struct SailShape {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d bow = Eigen::Vector3d::UnitX();
+  std::vector<double> heights{0.25, 0.5, 0.75};
+  Edge border = Edge::automatic;
+  double band = 0.1;
+  double tangent = 0.1;
+
+  static auto about() {
+    return velum::About<SailShape>(
+               "Corners, border lengths, area and sections of a sail: chord, camber, draft, twist, "
+               "entry and exit angles.")
+        .in("mesh", "of one sail")
+        .out("table", "one row a section, in the order of `heights`")
+        .out("corners", "tack, clew, head and peak (the leech's upper end)")
+        .param(&SailShape::up, "up", "direction to the masthead; sections are normal to it")
+        .param(&SailShape::bow, "bow", "direction to the bow, from leech to luff")
+        .param(&SailShape::heights, "heights",
+               "of the sections, as shares of the way from tack to head", velum::between(0.0, 1.0))
+        .choice(&SailShape::border, "border", "where the sail's edge is",
+                {{"auto", Edge::automatic,
+                  "compensated where the vertices know beam, line and scanner, else as_is"},
+                 {"as_is", Edge::as_is, "along the border of the mesh"},
+                 {"compensated", Edge::compensated,
+                  "half a scan step outside the last returns, as a scan ends before the cloth"}})
+        .param(&SailShape::band, "band",
+               "half width of the band of points that a section is fitted to, as a share of the "
+               "height",
+               velum::between(0.005, 0.5))
+        .advanced()
+        .param(&SailShape::tangent, "tangent",
+               "share of the chord over which entry and exit angles are fitted",
+               velum::between(0.01, 0.5))
+        .advanced()
+        .deterministic()
+        .reference("Canciani, thesis, 3.4.2 (border lengths as the test of an acquisition)")
+        .reference(
+            "Eilers and Marx, Flexible smoothing with B-splines and penalties, Statistical "
+            "Science 11 (1996)");
+  }
+
+  std::tuple<velum::Table, velum::Table> operator()(
+      const std::variant<velum::Mesh, velum::Surface>& input, velum::Context& context) const {
+    if (heights.empty()) throw velum::Error(velum::Fault::graph, "'heights' is empty");
+    const auto* given = std::get_if<velum::Mesh>(&input);
+    const velum::Mesh mesh =
+        given != nullptr ? *given : velum::sail::sample(std::get<velum::Surface>(input));
+    velum::sail::Options options;
+    options.heights = heights;
+    options.band = band;
+    options.tangent = tangent;
+    options.compensate = compensate(mesh);
+    const velum::sail::Shape shape = velum::sail::measure(mesh, up, bow, options, context);
+    context.info(options.compensate
+                     ? "the border was moved outward by half a scan step (border = compensated)"
+                     : "the border is that of the mesh (border = as_is)");
+    context.measure("luff", shape.luff, "m");
+    context.measure("leech", shape.leech, "m");
+    context.measure("foot", shape.foot, "m");
+    context.measure("area", shape.area, "m^2");
+    context.measure("compensated", options.compensate ? 1.0 : 0.0, "");
+    context.measure("border_moved", shape.moved, "m");
+    return {sections_of(shape), corners_of(shape)};
+  }
+
+ private:
+  [[nodiscard]] bool compensate(const velum::Mesh& mesh) const {
+    const bool possible = velum::sail::is_scan(mesh);
+    if (border == Edge::compensated && !possible)
+      throw velum::Error(velum::Fault::stage,
+                         "border = \"compensated\" needs the columns beam and line and a scanner, "
+                         "and the mesh lacks one of them")
+          .hint("keep the scan's columns up to the mesh, or use border = \"as_is\"");
+    return border == Edge::compensated || (border == Edge::automatic && possible);
+  }
+};
+
+}  // namespace
+
+VELUM_STAGE(SailShape)
