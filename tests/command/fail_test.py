@@ -39,8 +39,10 @@ class FailTest(CommandTest):
         self.write("g.toml", CHAIN)
         _, error = self.velum("run", "g.toml", "--set", "moved.byy=2", status=2)
         self.assertIn("did you mean 'by'?", error)
+        self.velum("run", "g.toml")
         _, error = self.velum("run", "g.toml", "--only", "movd", status=2)
-        self.assertIn("movd", error)
+        self.assertIn("did you mean 'moved'?", error)
+        self.assertTrue((self.folder / "g.out/n.txt").exists())
 
     def test_bad_data(self):
         self.write("points.txt", "many\n")

@@ -22,13 +22,7 @@ NodeRunner::NodeRunner(const graph::Graph& graph, plugins::Registry& registry,
 
 void NodeRunner::choose(const graph::Graph& graph) {
   std::vector<bool> wanted(graph.nodes.size(), options_.only.empty());
-  for (const std::string& name : options_.only) {
-    const auto found = graph.find(name);
-    if (!found)
-      throw Error(Fault::graph, fmt::format("the graph has no node '{}'", name))
-          .at(graph.path.string());
-    wanted[*found] = true;
-  }
+  for (const std::string& name : options_.only) wanted.at(graph.find(name).value()) = true;
   // Nodes stand behind their sources, so that one pass from the end reaches all that is needed.
   for (std::size_t node = graph.nodes.size(); node-- > 0;) {
     State& state = states_[node];

@@ -36,6 +36,19 @@ std::vector<std::string> planned_files(const graph::Graph& graph) {
   return files;
 }
 
+// Before the output folder is touched.
+void check_chosen(const graph::Graph& graph, const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const graph::Node& node : graph.nodes) known.push_back(node.name);
+  for (const std::string& name : names) {
+    if (graph.find(name)) continue;
+    const std::string guess = graph::did_you_mean(name, known);
+    throw Error(Fault::graph, fmt::format("the graph has no node '{}'", name))
+        .at(graph.path.string())
+        .hint(guess.empty() ? graph::known_list(known) : guess);
+  }
+}
+
 Status status_of(const RunRecord& record, Ended ended) {
   if (record.failure) return Status::failed;
   const bool whole =
@@ -80,6 +93,7 @@ class Frame {
 RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
                     const RunOptions& options, Observer& observer,
                     const std::function<void(const RunRecord&)>& started) {
+  check_chosen(graph, options.only);
   const Frame frame(graph, options);
   OutputFolder folder(options.out, graph_name(graph.path), planned_files(graph));
   std::optional<Cache> cache;
