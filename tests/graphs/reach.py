@@ -3,9 +3,11 @@
 # SPDX-License-Identifier: MIT
 """reach.py VELUM GRAPH LIMITS: runs a graph; its measures must lie within the limits.
 
-LIMITS is JSON: {"node.measure": {"most": x} or {"least": x} or {"is": x}}, in SI units. Every file
-that a node writes must be there and not empty.
+LIMITS is JSON: {"node.measure": {"most": x} or {"least": x} or {"is": x}}, in SI units, or
+{"file.csv:row:column": ...} for a cell of a table that was written, in the unit of its column. Every
+file that a node writes must be there and not empty.
 """
+import csv
 import json
 import os
 import subprocess
@@ -24,6 +26,12 @@ def main():
             sys.exit(f"velum run ended with {run.returncode}")
         with open(os.path.join(out, "run.json"), encoding="utf-8") as file:
             record = json.load(file)
+        cells = {}
+        for name in (f["path"] for f in record["files"] if f["path"].endswith(".csv")):
+            with open(os.path.join(out, name), encoding="utf-8") as file:
+                for row, line in enumerate(csv.DictReader(file)):
+                    cells.update({f"{os.path.basename(name)}:{row}:{column.split(' [')[0]}": float(x)
+                                  for column, x in line.items()})
         faults = [f"{f['path']} is empty" for f in record["files"] if f["bytes"] == 0]
         if not record["files"]:
             faults.append("no file was written")
@@ -31,7 +39,7 @@ def main():
         f"{node['name']}.{name}": measure["value"]
         for node in record["nodes"]
         for name, measure in node["measures"].items()
-    }
+    } | cells
     for name, limit in wanted.items():
         value = measures.get(name)
         if value is None:
