@@ -316,7 +316,9 @@ TEST_CASE("a probe is remembered until the file changes; damage of the memory co
     quickest =
         std::min<std::chrono::duration<double>>(quickest, std::chrono::steady_clock::now() - begin);
   }
+#if !defined(VELUM_SANITIZED)
   CHECK(quickest.count() < 1e-3);
+#endif
 
   folder.put("sound", content_of("crash"));
   CHECK_THAT(plugins::probe(file).quarantined, Contains("crashes"));
