@@ -27,6 +27,7 @@ class Merger {
   }
 
   Mesh mesh(const Source& source, const ReadOptions& options, Context& context) const {
+    if (places_.empty()) return {};
     Records records;
     records.count = static_cast<Index>(places_.size() / 3);
     const auto* data = reinterpret_cast<const std::byte*>(places_.data());  // NOLINT

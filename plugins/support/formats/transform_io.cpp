@@ -94,8 +94,9 @@ json parse(const Source& source) {
     return json::parse(source.text());
   } catch (const json::parse_error& error) {
     throw source.bad_line(error.byte == 0 ? 0 : error.byte - 1,
-                          "this is no JSON: it cannot be read "
-                          "from here on");
+                          "this is no JSON: it cannot be read from here on");
+  } catch (const json::exception&) {
+    throw Error(Fault::input, "a number that is out of range").at(source.name());
   }
 }
 
