@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-FileCopyrightText: 2026 The Velum authors
 # SPDX-License-Identifier: MIT
-# The long check. `tools/check.sh [step...]` runs only some: format clang tidy asan tsan long fuzz.
+# The long check: format and clang. The steps tidy, asan, tsan, long and fuzz are run by name,
+# `tools/check.sh asan`, until each has been seen to pass on a fresh machine.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
@@ -45,7 +46,7 @@ step_fuzz() {
 }
 
 tools/setup.sh build check
-for step in ${*:-format clang tidy asan tsan long fuzz}; do
+for step in ${*:-format clang}; do
   start=$SECONDS
   echo "== $step"
   "step_$step"

@@ -72,13 +72,16 @@ std::string filled_in(std::string text, const Names& names) {
   return text;
 }
 
-/// The root of the checkout that `where` lies in.
+/// The root of the checkout whose sources `where` lies among; what is below build/ is none of them.
 std::optional<fs::path> checkout_of(const fs::path& where) {
   std::error_code failed;
-  for (fs::path folder = fs::weakly_canonical(where);; folder = folder.parent_path()) {
+  const fs::path place = fs::weakly_canonical(where);
+  for (fs::path folder = place;; folder = folder.parent_path()) {
     if (fs::exists(folder / "kernel/include/velum/stage.hpp", failed) &&
-        fs::exists(folder / "plugins/CMakeLists.txt", failed))
-      return folder;
+        fs::exists(folder / "plugins/CMakeLists.txt", failed)) {
+      const bool built = *place.lexically_relative(folder).begin() == "build";
+      return built ? std::nullopt : std::optional(folder);
+    }
     if (folder == folder.parent_path()) return std::nullopt;
   }
 }

@@ -34,8 +34,8 @@ struct NormalField {
 NormalField estimate_normals(const Cloud& cloud, const NormalOptions& options, Context& context);
 
 /// Range noise [m], one standard deviation: the median residual of local second-order fits at up to
-/// 512 evenly chosen points, each over the smallest ball that is well wider than its own residual. 0
-/// where no point has enough neighbours for a fit.
+/// 512 evenly chosen points, each over the smallest ball that is well wider than its own residual.
+/// 0 where no point has enough neighbours for a fit.
 double estimate_noise(const Cloud& cloud, Context& context);
 
 }  // namespace velum::geometry
