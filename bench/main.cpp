@@ -34,9 +34,9 @@ bench::Input make_input(velum::Index count) {
   const auto save = [&](const char* file, const char* format) {
     Stage("io.write_cloud").set("file", folder + "/" + file).set("format", format).run(input.cloud);
   };
-  save("cloud.pcd", "pcd_binary");
+  save("cloud.pcd", "pcd");
   save("cloud_ascii.pcd", "pcd_ascii");
-  save("cloud.ply", "ply_binary");
+  save("cloud.ply", "ply");
   return input;
 }
 
