@@ -19,12 +19,13 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 const std::string kScene = VELUM_SOURCE_DIR "/graphs/scenes/wind_tunnel.toml";
 
-Cloud scan(const std::string& scanner, double step) {
+Cloud scan(const std::string& scanner, double step, std::uint64_t seed) {
   return Stage("devices.simulator")
       .set("scene", kScene)
       .set("scanner", scanner)
       .set("beam_step", std::to_string(step))
       .set("tilt_step", std::to_string(step))
+      .seed(seed)
       .run()
       .cloud();
 }
@@ -47,14 +48,14 @@ struct Pair {
   Eigen::Vector3d middle;  ///< of what matters, in the source's frame
 };
 
-const Pair& tunnel(double step) {
-  static std::map<double, Pair> made;
-  if (made.count(step) == 0) {
-    Pair pair{scan("mainsail", step), scan("gennaker", step), scene_truth(), {}};
-    pair.middle = Eigen::Vector3d(2.5, 0.0, 0.0);
-    made.emplace(step, std::move(pair));
-  }
-  return made.at(step);
+/// Both scans with the noise numbered `noise`.
+const Pair& tunnel(double step, std::uint64_t noise = 1) {
+  static std::map<std::pair<double, std::uint64_t>, Pair> made;
+  const auto key = std::pair(step, noise);
+  if (made.count(key) == 0)
+    made.emplace(key, Pair{scan("mainsail", step, 2 * noise), scan("gennaker", step, 2 * noise + 1),
+                           scene_truth(), Eigen::Vector3d(2.5, 0.0, 0.0)});
+  return made.at(key);
 }
 
 /// Turns and shifts the source any way, registers, and compares.
@@ -84,11 +85,11 @@ const Pose kSecond = velum::test::looking({2.0, 1.5, 1.2}, {0.0, 0.0, 1.5});
 }  // namespace
 
 TEST_CASE("the wind tunnel's scans come together from any orientation") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) register_turned(tunnel(0.5), seed);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) register_turned(tunnel(0.5, seed % 4), seed);
 }
 
 TEST_CASE("the wind tunnel's scans come together from a hundred orientations", "[.][long]") {
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) register_turned(tunnel(0.25), seed);
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) register_turned(tunnel(0.25, seed % 10), seed);
 }
 
 TEST_CASE("the cloud given back lies in the target's frame, columns and sensor with it") {

@@ -14,7 +14,7 @@ namespace velum::registration {
 namespace {
 
 /// Candidates that are refined before the choice.
-constexpr std::size_t kFinalists = 6;
+constexpr std::size_t kFinalists = 8;
 /// Points of the rest used to refine a finalist, and the winner.
 constexpr Index kFewPoints = 2000;
 constexpr Index kManyPoints = 40000;
@@ -127,13 +127,14 @@ class PlaneRegistration {
                               source_.scene.planes.size(), target_.scene.planes.size()));
     double most = 0.0;
     for (const Candidate& one : candidates) most = std::max(most, one.assignment.support);
-    for (Candidate& one : candidates) judge(one, most, kCoarseStride);
+    // Poses that slide are right to a step only.
+    for (Candidate& one : candidates) judge(one, most, 2.0 * margin_, kCoarseStride);
     sort(candidates);
     return candidates;
   }
 
-  void judge(Candidate& one, double most, Index stride) const {
-    one.seen = evidence(source_, target_, one.assignment.pose, margin_, stride);
+  void judge(Candidate& one, double most, double margin, Index stride) const {
+    one.seen = evidence(source_, target_, one.assignment.pose, margin, stride);
     one.score = 0.5 * one.assignment.support / most + one.seen.total();
   }
 
@@ -195,7 +196,7 @@ class PlaneRegistration {
       one.assignment.pose =
           refine(source_, target_, few, one.assignment, 2.0 * margin_, 0.5 * margin_, context_)
               .pose;
-      judge(one, most, 1);
+      judge(one, most, margin_, 1);
     }
     sort(candidates);
     return candidates;
