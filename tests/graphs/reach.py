@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Velum authors
 # SPDX-License-Identifier: MIT
-"""reach.py VELUM GRAPH LIMITS: runs a graph; its measures must lie within the limits.
+"""reach.py VELUM GRAPH LIMITS [OPTION...]: runs a graph; its measures must lie within the limits.
 
 LIMITS is JSON: {"node.measure": {"most": x} or {"least": x} or {"is": x}}, in SI units, or
 {"file.csv:row:column": ...} for a cell of a table that was written, in the unit of its column. Every
@@ -16,12 +16,13 @@ import tempfile
 
 
 def main():
-    velum, graph, limits = sys.argv[1:4]
+    velum, graph, limits, *options = sys.argv[1:]
     with open(limits, encoding="utf-8") as file:
         wanted = json.load(file)
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
-        run = subprocess.run([velum, "run", graph, "--out", out, "--no-cache"], check=False)
+        run = subprocess.run([velum, "run", graph, "--out", out, "--no-cache", *options],
+                             check=False)
         if run.returncode != 0:
             sys.exit(f"velum run ended with {run.returncode}")
         with open(os.path.join(out, "run.json"), encoding="utf-8") as file:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "formats/memory.hpp"
 #include "formats/records.hpp"
 #include "velum/context.hpp"
 
@@ -62,6 +63,7 @@ Column gather(const Records& records, std::span<const Component> components, con
               Context& context, const Convert& convert) {
   const auto width = static_cast<Index>(components.size());
   Eigen::Matrix<D, Eigen::Dynamic, Eigen::Dynamic> values(width, kept.count);
+  prefer_huge_pages(values.data(), static_cast<std::size_t>(values.size()) * sizeof(D));
   parallel_for(context, kept.count, kGatherGrain, [&](Index begin, Index end) {
     for (Index c = 0; c < width; ++c)
       each_piece(records, components[static_cast<std::size_t>(c)], kept, begin, end,

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-
 #include "formats/lines.hpp"
+#include "formats/memory.hpp"
 #include "formats/records.hpp"
 #include "formats/source.hpp"
 
@@ -34,14 +33,6 @@ const char* parse_value(const char* begin, const char* end, FieldType type, std:
 /// Reads a line into `row`; throws with the line's number when it holds anything else.
 void parse_row(const Source& source, std::string_view line, const RowLayout& layout,
                std::byte* row);
-
-/// A block of memory that is not zeroed.
-struct Buffer {
-  std::unique_ptr<std::byte[]> data;
-  std::size_t size = 0;
-  explicit Buffer(std::size_t bytes)
-      : data(std::make_unique_for_overwrite<std::byte[]>(bytes)), size(bytes) {}
-};
 
 /// Reads the data lines [first, first + count) of `lines`, which must exist, into packed rows.
 Buffer parse_rows(const Source& source, const Lines& lines, Index first, Index count,
