@@ -44,6 +44,7 @@ struct StageInfo {
   std::vector<Parameter> parameters;
   Determinism determinism = Determinism::bitwise;
   bool cacheable = true;
+  bool isolated = false;  ///< runs in a process of its own unless the graph says otherwise
   /// Output columns are those of the first input unless said otherwise.
   bool keeps_columns = true;
   std::vector<std::string> references;
@@ -384,6 +385,11 @@ class About {
   /// Never taken from the cache (devices).
   About& uncached() {
     info_.cacheable = false;
+    return *this;
+  }
+  /// A library in it may crash: runs in a process of its own unless the graph says otherwise.
+  About& isolated() {
+    info_.isolated = true;
     return *this;
   }
   About& version(std::string version) {

@@ -75,6 +75,7 @@ void limits(const Draft& draft, const Check& check, Node& node) {
 }
 
 void node_settings(const Draft& draft, const Check& check, Node& node) {
+  node.isolate = node.info != nullptr && node.info->isolated;
   flag(draft, "isolate", check, node.isolate);
   flag(draft, "allow_empty", check, node.allow_empty);
   flag(draft, "cache", check, node.cache);
@@ -149,7 +150,6 @@ void check_stages(Check& check) {
     node.name = draft.name;
     node.file = draft.file->source.name();
     node.where = draft.where;
-    node_settings(draft, check, node);
     if (const Key* key = draft.find("use")) {
       find_stage(*key, check, node);
     } else {
@@ -157,6 +157,7 @@ void check_stages(Check& check) {
                                 fmt::format("node '{}' says no stage", draft.name),
                                 "add use = \"KIND.NAME\"; `velum list` shows them");
     }
+    node_settings(draft, check, node);
   }
 }
 

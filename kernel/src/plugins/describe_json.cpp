@@ -129,6 +129,7 @@ Json describe_json(const StageInfo& info, const std::string& example) {
           {"keeps_columns", info.keeps_columns},
           {"parameters", array_of(info.parameters, parameter_json)},
           {"determinism", name_of(info.determinism)},
+          {"isolated", info.isolated},
           {"references", info.references},
           {"licence", info.licence},
           {"example", example}};

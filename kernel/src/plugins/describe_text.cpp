@@ -118,8 +118,9 @@ std::string describe_text(const StageInfo& info, const std::string& example) {
     text += "\nparameters\n";
     for (const Parameter& parameter : info.parameters) text += parameter_text(parameter, width, 2);
   }
-  text += fmt::format("\nversion {}, licence {}, determinism {}\n", info.version, info.licence,
-                      name_of(info.determinism));
+  text += fmt::format("\nversion {}, licence {}, determinism {}{}\n", info.version, info.licence,
+                      name_of(info.determinism),
+                      info.isolated ? ", in a process of its own unless isolate = false" : "");
   if (!info.references.empty()) text += "\nreferences\n";
   for (const std::string& reference : info.references) text += wrapped(reference, 2);
   if (!example.empty()) text += "\nexample\n";

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "graph/diagnostic.hpp"
 #include "graph/settings.hpp"
 #include "plugins/call.hpp"
+#include "run/isolate.hpp"
 #include "run/local_context.hpp"
 #include "testing/bench.hpp"
 #include "velum/testing.hpp"
@@ -25,6 +27,22 @@ const Parameter& parameter_called(const StageInfo& info, const std::string& name
   std::string hint = graph::did_you_mean(name, known);
   if (hint.empty()) hint = graph::known_list(known);
   throw Error(Fault::graph, fmt::format("unknown parameter '{}' of {}", name, info.id)).hint(hint);
+}
+
+// What the graph does with a stage whose library may crash.
+Results isolated(const plugins::Call& call, run::LocalContext& context, const StageInfo& info) {
+  static std::atomic<int> runs = 0;
+  const auto scratch = scratch_folder() / fmt::format("isolated-{}", runs++);
+  std::filesystem::create_directories(scratch);
+  run::IsolatedStage stage;
+  stage.id = info.id;
+  stage.info = &info;
+  stage.plugin = registry().file(info.id);
+  stage.seed = context.seed();
+  stage.scratch = scratch;
+  Results results = run::run_isolated(stage, call, context).results;
+  std::filesystem::remove_all(scratch);
+  return results;
 }
 
 }  // namespace
@@ -82,7 +100,8 @@ Outcome Stage::execute() {
   run::LocalContext context(threads_, run::node_seed(seed_, info().id, "test"));
   if (cancelled_) context.cancel();
   Outcome outcome;
-  outcome.results = plugins::invoke(*type_, call, context);
+  outcome.results = info().isolated ? isolated(call, context, info())
+                                    : plugins::invoke(*type_, call, context);
   for (const auto& [name, measure] : context.measures()) outcome.measures[name] = measure.value;
   outcome.warnings = context.warnings();
   return outcome;
