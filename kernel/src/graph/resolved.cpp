@@ -91,8 +91,7 @@ std::string node_text(const Check& check, const Checked& checked) {
   std::string text = fmt::format("\n[node.{}]\n", node.name) + line("use", toml::quoted(node.use));
   if (!node.title.empty()) text += line("title", toml::quoted(node.title));
   text += wires_text(check, checked);
-  if (node.isolate != node.info->isolated)
-    text += line("isolate", node.isolate ? "true" : "false");
+  if (node.isolate != node.info->isolated) text += line("isolate", node.isolate ? "true" : "false");
   if (node.allow_empty) text += line("allow_empty", "true");
   if (!node.cache) text += line("cache", "false");
   if (node.seed) text += line("seed", fmt::format("{}", *node.seed));

@@ -100,8 +100,8 @@ Outcome Stage::execute() {
   run::LocalContext context(threads_, run::node_seed(seed_, info().id, "test"));
   if (cancelled_) context.cancel();
   Outcome outcome;
-  outcome.results = info().isolated ? isolated(call, context, info())
-                                    : plugins::invoke(*type_, call, context);
+  outcome.results =
+      info().isolated ? isolated(call, context, info()) : plugins::invoke(*type_, call, context);
   for (const auto& [name, measure] : context.measures()) outcome.measures[name] = measure.value;
   outcome.warnings = context.warnings();
   return outcome;
