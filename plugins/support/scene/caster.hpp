@@ -27,6 +27,7 @@ struct Reach {
                                          const Reach& reach);
 [[nodiscard]] std::optional<double> meet(const Cylinder& cylinder, const Ray& ray,
                                          const Reach& reach);
+[[nodiscard]] std::optional<double> meet(const Cone& cone, const Ray& ray, const Reach& reach);
 
 /// Bounding volume hierarchy over triangles: nearest hit of a ray in logarithmic time.
 class TriangleTree {
@@ -78,7 +79,8 @@ class Caster {
     S shape;
     std::int32_t object;
   };
-  using Solid = std::variant<Placed<Plane>, Placed<Box>, Placed<Ellipsoid>, Placed<Cylinder>>;
+  using Solid =
+      std::variant<Placed<Plane>, Placed<Box>, Placed<Ellipsoid>, Placed<Cylinder>, Placed<Cone>>;
   std::vector<Solid> solids_;
   TriangleTree tree_;
 };

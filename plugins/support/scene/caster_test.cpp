@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "velum/random.hpp"
 
@@ -74,6 +75,20 @@ TEST_CASE("a box and a cylinder are met at their sides and ends") {
   CHECK_FALSE(meet(cylinder, {{0.2, 0, 5}, {0, 0, -1}}, kAnywhere));
 }
 
+TEST_CASE("a cone is met at its side and its base, above its apex never") {
+  const Cone cone{{0, 0, 2}, {0, 0, 0}, 1.0};
+  CHECK(meet(cone, {{5, 0, 1}, {-1, 0, 0}}, kAnywhere).value() == Approx(4.5));
+  CHECK(meet(cone, {{0.25, 0, 5}, {0, 0, -1}}, kAnywhere).value() == Approx(3.5));
+  CHECK(meet(cone, {{0.5, 0, -3}, {0, 0, 1}}, kAnywhere).value() == Approx(3.0));
+  CHECK(meet(cone, {{0, 0, 0.5}, {1, 0, 0}}, kAnywhere).value() == Approx(0.75));  // from inside
+  CHECK_FALSE(meet(cone, {{5, 0, 2.5}, {-1, 0, 0}}, kAnywhere));
+  CHECK_FALSE(meet(cone, {{5, 0, -0.1}, {-1, 0, 0}}, kAnywhere));
+  CHECK_FALSE(meet(cone, {{1.1, 0, 5}, {0, 0, -1}}, kAnywhere));
+  // Parallel to a line of the side.
+  const Vector3d line = Vector3d(1, 0, -2).normalized();
+  CHECK(meet(cone, {{-3, 0, 6}, line}, kAnywhere).value() == Approx(2.5 * std::sqrt(5.0)));
+}
+
 TEST_CASE("nothing nearer or farther than the reach is met") {
   const Plane plane;
   const Ray ray{{0, 0, 5}, {0, 0, -1}};
@@ -102,6 +117,21 @@ TEST_CASE("triangles of a closed form are met where the closed form is") {
     ++hits;
   }
   CHECK(hits == 2000);
+}
+
+TEST_CASE("a cone's triangles lie on it and face outwards") {
+  const Object object{"hat", 1, {Cone{{0, 0, 2}, {0, 0, 0}, 1.0}}};
+  const TriangleSet set = triangulate(object, 1e-4);
+  double area = 0.0;
+  for (Index i = 0; i < set.triangles.cols(); ++i) {
+    const Vector3d a = set.vertices.col(set.triangles(0, i));
+    const Vector3d b = set.vertices.col(set.triangles(1, i));
+    const Vector3d c = set.vertices.col(set.triangles(2, i));
+    const Vector3d normal = (b - a).cross(c - a);
+    area += 0.5 * normal.norm();
+    CHECK(normal.dot((a + b + c) / 3.0 - Vector3d(0, 0, 0.5)) > 0.0);
+  }
+  CHECK(area == Approx(std::numbers::pi * (1.0 + std::sqrt(5.0))).epsilon(1e-3));
 }
 
 TEST_CASE("no ray slips between the triangles of a sheet") {

@@ -98,4 +98,39 @@ std::optional<double> meet(const Cylinder& cylinder, const Ray& ray, const Reach
   return nearer(reach, enter, leave);
 }
 
+std::optional<double> meet(const Cone& cone, const Ray& ray, const Reach& reach) {
+  const Vector3d axis = (cone.base - cone.apex).normalized();
+  const double height = (cone.base - cone.apex).norm();
+  const Vector3d offset = ray.from - cone.apex;
+  const double rise = ray.along.dot(axis);
+  const double start = offset.dot(axis);
+  const double slope = cone.radius / height;
+  // (distance from the axis)² = (slope · height below the apex)², both linear along the ray.
+  const double wide = 1.0 + slope * slope;
+  const double a = 1.0 - wide * rise * rise;
+  const double half_b = offset.dot(ray.along) - wide * start * rise;
+  const double c = offset.squaredNorm() - wide * start * start;
+  std::optional<double> best;
+  const auto offer = [&](double range) {
+    if (range >= reach.near && range <= reach.far && (!best || range < *best)) best = range;
+  };
+  const auto offer_side = [&](double range) {
+    const double depth = start + range * rise;
+    if (depth >= 0.0 && depth <= height) offer(range);
+  };
+  const double root = half_b * half_b - a * c;
+  if (std::abs(a) < 1e-12) {  // along a line of the cone: it meets the side once
+    if (half_b != 0.0) offer_side(-0.5 * c / half_b);
+  } else if (root >= 0.0) {
+    offer_side((-half_b - std::sqrt(root)) / a);
+    offer_side((-half_b + std::sqrt(root)) / a);
+  }
+  if (rise != 0.0) {
+    const double range = (height - start) / rise;
+    if ((ray.from + range * ray.along - cone.base).squaredNorm() <= cone.radius * cone.radius)
+      offer(range);
+  }
+  return best;
+}
+
 }  // namespace velum::scene

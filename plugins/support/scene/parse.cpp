@@ -82,6 +82,13 @@ std::vector<Shape> cylinders(Keys& keys, const Pose& frame, const SceneFile& fil
   return shapes;
 }
 
+Cone cone_of(Keys& keys, const Pose& frame) {
+  const Cone cone{frame * keys.place("apex"), frame * keys.place("base"), keys.length("radius")};
+  if ((cone.base - cone.apex).norm() < 1e-9) keys.fail("base", "is the same point as apex");
+  if (cone.radius <= 0.0) keys.fail("radius", "must be above 0");
+  return cone;
+}
+
 TriangleSet mesh_of(Keys& keys, const Pose& frame, const SceneFile& file) {
   const Pose pose = frame * keys.pose();
   TriangleSet set;
@@ -163,13 +170,15 @@ Object object_of(const SceneFile& file, const Entry& entry, const Frames& frames
     object.shapes.emplace_back(Ellipsoid{frame * keys.pose(), positive(keys, "semi_axes")});
   else if (shape == "cylinder")
     object.shapes = cylinders(keys, frame, file);
+  else if (shape == "cone")
+    object.shapes.emplace_back(cone_of(keys, frame));
   else if (shape == "mesh")
     object.shapes.emplace_back(mesh_of(keys, frame, file));
   else if (shape == "sail")
     object.shapes.emplace_back(sail_of(keys, frame, file));
   else
     keys.fail("shape", "is \"" + shape + "\", which is no shape",
-              graph::known_list({"plane", "box", "ellipsoid", "cylinder", "mesh", "sail"}));
+              graph::known_list({"plane", "box", "ellipsoid", "cylinder", "cone", "mesh", "sail"}));
   keys.finish();
   return object;
 }

@@ -61,7 +61,7 @@ TEST_CASE("frames carry what stands in them") {
 TEST_CASE("mistakes are told with file, line and column") {
   CHECK(refusal("format = 1\nunits = \"m\"\n[scanner.a]\nbeam_stp = 1\n").where == "some.toml:4:1");
   CHECK(refusal(kHead + "[scanner.a]\nbeam_stp = 1\n").hint == "did you mean 'beam_step'?");
-  CHECK(refusal(kHead + "[object.a]\nlabel = 1\nshape = \"cone\"\n").where == "some.toml:5:9");
+  CHECK(refusal(kHead + "[object.a]\nlabel = 1\nshape = \"torus\"\n").where == "some.toml:5:9");
   CHECK(refusal(kHead + "[object.a]\nlabel = 1\n").message ==
         "object 'a' has no 'shape', which it needs");
   CHECK(refusal(kHead + "[object.a\n").where.substr(0, 12) == "some.toml:3:");
@@ -72,6 +72,14 @@ TEST_CASE("mistakes are told with file, line and column") {
   CHECK(refusal("units = \"m\"\n").message == "the scene has no 'format', which it needs");
   CHECK(refusal("format = 1\nunits = \"furlong\"\n").where == "some.toml:2:9");
   CHECK(refusal(kHead + "[object.a]\nlabel = 1.5\nshape = \"box\"\n").where == "some.toml:4:9");
+}
+
+TEST_CASE("a cone has an apex, a base and a radius") {
+  const std::string cone = kHead + "[object.c]\nlabel = 1\nshape = \"cone\"\napex = [0, 0, 2]\n";
+  const Scene scene = parse_scene(cone + "base = [0, 0, 0]\nradius = 0.5\n", "x.toml");
+  CHECK(std::get<Cone>(scene.object("c").shapes.front()).radius == 0.5);
+  CHECK(refusal(cone + "base = [0, 0, 2]\nradius = 0.5\n").where == "some.toml:7:8");
+  CHECK(refusal(cone + "base = [0, 0, 0]\nradius = 0\n").where == "some.toml:8:10");
 }
 
 TEST_CASE("values that make no sense are refused") {

@@ -33,11 +33,17 @@ struct Cylinder {
   Eigen::Vector3d to = Eigen::Vector3d::UnitZ();
   double radius = 1.0;
 };
+/// With a flat base.
+struct Cone {
+  Eigen::Vector3d apex = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d base = Eigen::Vector3d::Zero();  ///< centre of the base
+  double radius = 1.0;                             ///< of the base
+};
 struct TriangleSet {
   Eigen::Matrix3Xd vertices;
   Triangles triangles;
 };
-using Shape = std::variant<Plane, Box, Ellipsoid, Cylinder, TriangleSet, Sail>;
+using Shape = std::variant<Plane, Box, Ellipsoid, Cylinder, Cone, TriangleSet, Sail>;
 
 /// A named part of a scene: one or several shapes under one label.
 struct Object {

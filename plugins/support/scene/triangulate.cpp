@@ -86,6 +86,18 @@ TriangleSet triangles(const Cylinder& cylinder, double error) {
   });
 }
 
+TriangleSet triangles(const Cone& cone, double error) {
+  const Vector3d axis = (cone.base - cone.apex).normalized();
+  const Vector3d x = axis.unitOrthogonal();
+  const Vector3d y = axis.cross(x);
+  // Rows: the apex, the rim, and the centre of the base. Counter-clockwise seen from outside.
+  return grid(circle_steps(cone.radius, error), 2, [&](double u, double v) -> Vector3d {
+    const double turn = 2.0 * std::numbers::pi * u;
+    const double radius = v > 0.2 && v < 0.8 ? cone.radius : 0.0;
+    return (v < 0.2 ? cone.apex : cone.base) + radius * (std::cos(turn) * x + std::sin(turn) * y);
+  });
+}
+
 TriangleSet triangles(const TriangleSet& set, double /*error*/) {
   return set;
 }
