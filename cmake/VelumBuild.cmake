@@ -35,9 +35,11 @@ if(VELUM_SANITIZE)
     -fsanitize=${VELUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(velum_options INTERFACE -fsanitize=${VELUM_SANITIZE})
   target_compile_definitions(velum_options INTERFACE VELUM_SANITIZED)
-  # GCC's sanitizers make it see uninitialised values in Catch's and the standard library's code.
+  # GCC's sanitizers make it see uninitialised values in Catch's and the standard library's code;
+  # clang leaves the sanitizer's own symbols of a shared object to the program.
   target_compile_options(velum_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_link_options(velum_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:LINKER:-z,undefs>)
 endif()
 if(VELUM_FUZZ)
   target_compile_options(velum_options INTERFACE -fsanitize=fuzzer-no-link)

@@ -19,6 +19,9 @@ function(velum_test name)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(${target} PRIVATE VELUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     VELUM_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(VELUM_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)  # what is tested is optimised, not the test
+  endif()
   if(arg_DEPENDS)
     add_dependencies(${target} ${arg_DEPENDS})
   endif()

@@ -34,7 +34,10 @@ void fill_standard_descriptors() {
 
 void take_standard_output() {
   fill_standard_descriptors();
+  // A reader that goes away and a file that may not grow are errors of the write, which are
+  // reported.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   const int kept = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
   if (kept < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return;
   standard_output = kept;

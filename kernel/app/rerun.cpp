@@ -60,7 +60,7 @@ int rerun(const run::Json& record, const Options& options, const fs::path& out) 
   plugins::Registry registry;
   const graph::Loaded loaded = graph::load_text(
       record.at("graph").at("resolved").get<std::string>(),
-      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = fs::absolute(out)});
+      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = out});
   if (!loaded.graph) {
     complain(graph::format(loaded.diagnostics));
     return graph::exit_status(loaded.diagnostics);
@@ -72,7 +72,12 @@ int rerun(const run::Json& record, const Options& options, const fs::path& out) 
   const run::RunResult result =
       run::run_graph(*loaded.graph, registry, asked, *reporter,
                      [&](const run::RunRecord& begun) { reporter->run_started(begun, out); });
-  if (result.abandoned) std::_Exit(run::kInterrupted);
+  if (result.abandoned) {
+    // Stages that do not listen still run; nothing is unwound.
+    std::error_code ignored;
+    if (options.out.empty()) fs::remove_all(out, ignored);
+    std::_Exit(run::kInterrupted);
+  }
   if (result.record.status == run::Status::interrupted) return run::kInterrupted;
   const auto differences = run::compare(record, run::to_json(result.record));
   for (const std::string& difference : differences) print("differs: " + difference + "\n");

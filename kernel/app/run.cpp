@@ -67,9 +67,8 @@ void run_command(Options options) {
   if (options.out.empty()) options.out = options.graph.stem().string() + ".out";
   const auto reporter = options.json ? make_json_reporter() : make_text_reporter(on_terminal());
   plugins::Registry registry;
-  const graph::Loaded loaded =
-      graph::load(options.graph, options.overrides, registry,
-                  graph::LoadOptions{.out = std::filesystem::absolute(options.out)});
+  const graph::Loaded loaded = graph::load(options.graph, options.overrides, registry,
+                                           graph::LoadOptions{.out = options.out});
   if (!loaded.graph) {
     reporter->refused(loaded.diagnostics);
     throw Exit{graph::exit_status(loaded.diagnostics)};

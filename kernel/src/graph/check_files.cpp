@@ -80,8 +80,8 @@ Trouble output_trouble(const fs::path& path, const std::string& name,
   if (is_record(path))
     return {fmt::format("'{}' is the name of the run's own record", name), "choose another name"};
   if (!out) return {};
-  const fs::path target = *out / path;
   std::error_code fault;
+  const fs::path target = fs::absolute(*out / path, fault);
   const fs::file_status status = fs::status(target, fault);
   if (fs::exists(status) && !fs::is_regular_file(status))
     return {
