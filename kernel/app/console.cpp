@@ -5,6 +5,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <span>
 #include <system_error>
@@ -16,10 +18,14 @@ namespace {
 
 int standard_output = STDOUT_FILENO;
 
-void put(int descriptor, std::string_view text) {
+std::atomic<int> failed_output = 0;  // errno of the first write that failed
+
+int put(int descriptor, std::string_view text) {
   try {
     files::write_fully(descriptor, std::as_bytes(std::span(text)));
-  } catch (const std::system_error&) {  // nobody is left to tell
+    return 0;
+  } catch (const std::system_error& error) {
+    return error.code().value();
   }
 }
 
@@ -34,8 +40,7 @@ void fill_standard_descriptors() {
 
 void take_standard_output() {
   fill_standard_descriptors();
-  // A reader that goes away and a file that may not grow are errors of the write, which are
-  // reported.
+  // A reader that goes away and a file that may not grow are errors of the write.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   const int kept = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
@@ -44,7 +49,15 @@ void take_standard_output() {
 }
 
 void print(std::string_view text) {
-  put(standard_output, text);
+  const int failed = put(standard_output, text);
+  // A pipe's reader may have what it wanted.
+  if (failed != 0 && failed != EPIPE && failed_output == 0) failed_output = failed;
+}
+
+void check_output() {
+  if (failed_output != 0)
+    throw Error(Fault::output,
+                "standard output cannot be written: " + files::reason(failed_output));
 }
 
 bool on_terminal() {

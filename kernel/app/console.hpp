@@ -14,9 +14,11 @@ namespace velum::app {
 
 /// Called once, first of all.
 void take_standard_output();
-/// To the true standard output. What cannot be written there is lost: a pipe's reader may have
-/// left.
+/// To the true standard output. What cannot be written there is lost; check_output tells.
 void print(std::string_view text);
+/// Throws Error (Fault::output) when something could not be printed, but for a pipe whose reader has
+/// left.
+void check_output();
 /// Is the true standard output a terminal?
 bool on_terminal();
 /// To standard error.

@@ -22,11 +22,11 @@ namespace fs = std::filesystem;
 
 constexpr std::array kClouds = {".pcd", ".xyz", ".txt", ".csv", ".tsv", ".asc",
                                 ".pts", ".las", ".3d",  ".ply", ".vtk"};
-constexpr std::array kMeshes = {".ply", ".stl", ".obj", ".off", ".vtk", ".glb"};
+constexpr std::array kMeshes = {".ply", ".stl", ".obj", ".off", ".vtk"};
 constexpr std::array kTransforms = {".json", ".txt"};
 constexpr const char* kKnown =
-    "known: pcd, ply, las, xyz, txt, csv, vtk for clouds; ply, stl, obj, "
-    "off, vtk, glb for meshes; json, txt for transforms";
+    "known: pcd, ply, las (read only), xyz, txt, csv, vtk for clouds; ply, stl, obj, off, vtk for "
+    "meshes; json, txt for transforms";
 
 std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -42,6 +42,10 @@ bool is_one_of(const std::string& extension, const std::array<const char*, N>& l
 }
 
 std::string beginning_of(const fs::path& path) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed))
+    throw Error(Fault::graph, fs::exists(path, failed) ? "not a regular file" : "no such file")
+        .at(path.string());
   const files::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file) throw Error(Fault::graph, "the file cannot be opened").at(path.string());
   std::string text(65536, '\0');
@@ -92,7 +96,7 @@ FileKind kind_of_input(const fs::path& path) {
 
 FileKind kind_of_output(const fs::path& path, FileKind input) {
   const std::string extension = extension_of(path);
-  const bool cloud = is_one_of(extension, kClouds);
+  const bool cloud = is_one_of(extension, kClouds) && extension != ".las";
   const bool mesh = is_one_of(extension, kMeshes);
   const bool transform = is_one_of(extension, kTransforms);
   if (input == FileKind::transform && transform) return input;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -29,8 +31,12 @@ std::string line(const char* what, const std::string& text) {
   return fmt::format("{:<10} {}\n", what, text);
 }
 
-std::string place(const Eigen::Vector3d& p) {
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", p.x(), p.y(), p.z());
+/// With as many decimals as tell `size` to six digits, so that large coordinates keep theirs.
+std::string place(const Eigen::Vector3d& p, double size) {
+  const double digits = size > 0.0 ? 5.0 - std::floor(std::log10(size)) : 6.0;
+  const double scale = std::pow(10.0, std::clamp(digits, 0.0, 9.0));
+  const auto rounded = [&](double x) { return std::round(x * scale) / scale; };
+  return fmt::format("[{:.15g}, {:.15g}, {:.15g}]", rounded(p.x()), rounded(p.y()), rounded(p.z()));
 }
 
 /// Says all lengths in the unit that the user asked for.
@@ -40,24 +46,26 @@ class Describe {
 
   std::string operator()(const Cloud& cloud) const {
     std::string text;
+    const double size = cloud.diagonal() / unit_.metres;
     if (!cloud.empty()) {
       const Eigen::AlignedBox3f box = bounding_box(cloud.positions());
-      text +=
-          line("extent",
-               fmt::format("{} to {} {}", place(in_unit(box.min().cast<double>() + cloud.origin())),
-                           place(in_unit(box.max().cast<double>() + cloud.origin())), unit_.name));
+      const Eigen::Vector3d low = in_unit(box.min().cast<double>() + cloud.origin());
+      const Eigen::Vector3d high = in_unit(box.max().cast<double>() + cloud.origin());
+      text += line("extent",
+                   fmt::format("{} to {} {}", place(low, size), place(high, size), unit_.name));
       text += line("diagonal", length(cloud.diagonal()));
       text += line("spacing", length(cloud.spacing()) + " (median to the nearest point)");
     }
     if (cloud.origin() != Eigen::Vector3d::Zero())
-      text += line("origin", place(in_unit(cloud.origin())) + " " + unit_.name);
+      text += line("origin", place(in_unit(cloud.origin()), size) + " " + unit_.name);
     for (const auto& [name, column] : cloud.columns())
       text += line("column",
                    fmt::format("{} ({}{})", name, name_of(column.scalar()),
                                column.width() > 1 ? fmt::format(" x {}", column.width()) : ""));
     for (const Sensor& sensor : cloud.sensors())
-      text += line("sensor", fmt::format("{} at {} {}", sensor.name,
-                                         place(in_unit(sensor.pose.translation())), unit_.name));
+      text +=
+          line("sensor", fmt::format("{} at {} {}", sensor.name,
+                                     place(in_unit(sensor.pose.translation()), size), unit_.name));
     return text;
   }
   std::string operator()(const Mesh& mesh) const { return (*this)(mesh.vertices()); }

@@ -117,7 +117,9 @@ int main(int argc, char** argv) {
   using namespace velum::app;
   take_standard_output();
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (status == 0) check_output();
+    return status;
   } catch (const Exit& exit) {
     return exit.status;
   } catch (const velum::Error& error) {

@@ -49,6 +49,9 @@ class TemporaryFolder {
 run::RunOptions options_of(const run::Json& record, const Options& options) {
   run::RunOptions result;
   result.threads = options.threads > 0 ? options.threads : record.at("threads").get<int>();
+  if (result.threads < 1)
+    throw Error(Fault::input, fmt::format("its threads are {}; there must be one", result.threads))
+        .at(options.record.string());
   result.seed = record.at("seed").get<std::uint64_t>();
   for (const run::Json& node : record.at("nodes"))
     result.only.push_back(node.at("name").get<std::string>());

@@ -101,13 +101,18 @@ void add_run(CLI::App& app) {
   command->add_option("--threads", options->threads, "threads; default: all processors")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
+  const auto no_sign = [](const std::string& text) {
+    return text.starts_with("-") ? "it cannot be negative" : "";
+  };
   command->add_option("--seed", options->seed, "seed of all random numbers; default: 1")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Validator(no_sign, ""));
   auto* cache =
       command->add_option("--cache", options->cache, "where results are kept")->type_name("DIR");
   command->add_option("--cache-size", options->cache_size, "its largest size, as 500MB or 4GB")
       ->type_name("SIZE")
-      ->transform(CLI::AsSizeValue(true));
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Validator(no_sign, ""));
   command->add_flag("--no-cache", options->no_cache, "run everything; keep nothing")
       ->excludes(cache);
   command->add_flag("--report", options->report, "also write report.html");

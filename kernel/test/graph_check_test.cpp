@@ -166,6 +166,17 @@ TEST_CASE("E0206: range") {
               "number"});
 }
 
+TEST_CASE("E0206: an integer that a stage could not hold") {
+  const auto grow = [](const std::string& size) {
+    return mistakes(kScan + "[node.n]\nuse = \"features.normals\"\nin = \"scan\"\n[node.sail]\n" +
+                    "use = \"segmentation.region_growing\"\nin = \"n\"\nmin_size = " + size + "\n");
+  };
+  CHECK(grow("2147483647").empty());
+  REQUIRE(grow("4294967299").size() == 1);
+  CHECK(grow("4294967299").front().find("must be between -2147483647 and 2147483647") !=
+        std::string::npos);
+}
+
 TEST_CASE("E0208: choice") {
   CHECK(
       mistakes(kScan + "[node.other]\nuse = \"devices.simulator\"\n[node.icp]\nuse = "

@@ -189,8 +189,10 @@ TEST_CASE("E0502: output files") {
   CHECK(write("a/") == Lines{of + "'a/' names no file"});
   CHECK(write(".") == Lines{of + "'.' names no file"});
   CHECK(write("./run.json") ==
-        Lines{of + "'./run.json' is the name of the run's own record | choose "
+        Lines{of + "'./run.json' is a name of the run's own | choose "
                    "another name"});
+  CHECK(write(".velum.scratch/x.ply").size() == 1);
+  CHECK(write("run.json/x.ply").size() == 1);
   const Folder folder;
   folder.write("file", "");
   fs::create_directory(folder.path() / "there.ply");

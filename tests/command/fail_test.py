@@ -95,7 +95,7 @@ class FailTest(CommandTest):
         self.assertEqual(self.leftovers(), [])
 
         self.write("a-file", "mine")
-        self.velum("run", "g.toml", "--out", "a-file", status=2)  # found by the check
+        self.velum("run", "g.toml", "--out", "a-file", status=6)  # found by the check
         self.assertEqual((self.folder / "a-file").read_text(), "mine")
 
     def test_a_disk_that_is_full(self):
@@ -109,6 +109,27 @@ class FailTest(CommandTest):
         self.assertIn("written by node 'file' (test.write)", error)
         self.assertFalse((self.folder / "g.out/n.txt").exists())
         self.assertEqual(self.leftovers(), [])
+
+    def test_standard_output_that_is_full(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            _, error = self.velum("list", stdout=full, status=6)
+        self.assertIn("standard output cannot be written", error)
+
+    def test_numbers_that_wrap(self):
+        self.write("g.toml", CHAIN)
+        for option in (("--seed", "-1"), ("--cache-size", "-5"), ("--threads", "-4")):
+            self.velum("run", "g.toml", *option, status=2)
+
+    def test_files_that_are_none(self):
+        os.mkfifo(self.folder / "pipe.xyz")
+        for name in ("pipe.xyz", ".", "missing.xyz"):
+            self.velum("info", name, status=2)
+
+    def test_a_cache_among_the_results(self):
+        self.write("g.toml", CHAIN)
+        _, error = self.velum("run", "g.toml", "--out", "o", "--cache", "o/c", status=2)
+        self.assertIn("the cache lies in the output folder", error)
+        self.assertFalse((self.folder / "o").exists())
 
     def test_a_crash_in_a_process_of_its_own(self):
         self.write("g.toml", CHAIN.replace(

@@ -21,6 +21,7 @@ constexpr int kMaxListed = 1000;  // files of a folder that a missing one is com
 struct Trouble {
   std::string message;
   std::string hint;
+  Fault fault = Fault::graph;
 };
 
 std::string neighbours_hint(const fs::path& path) {
@@ -57,16 +58,20 @@ Trouble folder_trouble(const fs::path& path, const std::string& name) {
     const fs::file_status status = fs::status(folder, fault);
     if (status.type() == fs::file_type::not_found && folder != folder.parent_path()) continue;
     if (!fs::is_directory(status))
-      return {fmt::format("'{}' cannot be written: '{}' is no folder", name, folder.string()), ""};
+      return {fmt::format("'{}' cannot be written: '{}' is no folder", name, folder.string()), "",
+              Fault::output};
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
       return {fmt::format("'{}' cannot be written: no permission in '{}'", name, folder.string()),
-              "choose another folder with --out"};
+              "choose another folder with --out", Fault::output};
     return {};
   }
 }
 
-bool is_record(const fs::path& path) {
-  return path == "run.json" || path == "report.html" || path == "study.json" || path == "study.csv";
+/// Files, and folders, that a run keeps for itself in the output folder.
+bool is_reserved(const fs::path& path) {
+  const fs::path first = *path.begin();
+  return first == "run.json" || first == "report.html" || first == "study.json" ||
+         first == "study.csv" || first.string().starts_with(".velum.");
 }
 
 Trouble output_trouble(const fs::path& path, const std::string& name,
@@ -77,8 +82,8 @@ Trouble output_trouble(const fs::path& path, const std::string& name,
   if (*path.begin() == "..")
     return {fmt::format("'{}' leaves the output folder", name), "outputs are written below --out"};
   if (!path.has_filename() || path == ".") return {fmt::format("'{}' names no file", name), ""};
-  if (is_record(path))
-    return {fmt::format("'{}' is the name of the run's own record", name), "choose another name"};
+  if (is_reserved(path))
+    return {fmt::format("'{}' is a name of the run's own", name), "choose another name"};
   if (!out) return {};
   std::error_code fault;
   const fs::path target = fs::absolute(*out / path, fault);
@@ -86,7 +91,7 @@ Trouble output_trouble(const fs::path& path, const std::string& name,
   if (fs::exists(status) && !fs::is_regular_file(status))
     return {
         fmt::format("'{}' cannot be written: it is there and is no regular file", target.string()),
-        ""};
+        "", Fault::output};
   return folder_trouble(target, name);
 }
 
@@ -146,19 +151,41 @@ class Files {
       report("E0503", written,
              {fmt::format("'{}' is written by node '{}' too", name, first->second),
               "give one of them another name"});
+    else
+      file_and_folder(written, path);
     name = path.string();
   }
 
+  /// Refuses a name that is a file of one node and a folder of another.
+  void file_and_folder(const toml::Node& written, const fs::path& path) {
+    const auto refuse = [&](const std::string& name, const std::string& node) {
+      report("E0503", written,
+             {fmt::format("'{}' is a file of one node and a folder of another, see node '{}'", name,
+                          node),
+              "give one of them another name"});
+    };
+    if (const auto folder = folders_.find(path.string()); folder != folders_.end())
+      return refuse(path.string(), folder->second);
+    for (fs::path part = path.parent_path(); !part.empty(); part = part.parent_path()) {
+      if (const auto file = writers_.find(part.string()); file != writers_.end())
+        return refuse(part.string(), file->second);
+      folders_.emplace(part.string(), node_->name);
+    }
+  }
+
   void report(const char* code, const toml::Node& written, const Trouble& trouble) const {
-    if (!trouble.message.empty())
-      check_.report(*key_).error(
-          code, written.where, fmt::format("{}: {}", call(*node_), trouble.message), trouble.hint);
+    if (trouble.message.empty()) return;
+    check_.report(*key_)
+        .error(code, written.where, fmt::format("{}: {}", call(*node_), trouble.message),
+               trouble.hint)
+        .fault = trouble.fault;
   }
 
   Check& check_;
   const Node* node_ = nullptr;
   const Key* key_ = nullptr;
   std::map<std::string, std::string> writers_;  ///< node by file
+  std::map<std::string, std::string> folders_;  ///< node by folder of a file
 };
 
 }  // namespace

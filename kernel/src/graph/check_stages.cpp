@@ -85,8 +85,10 @@ void node_settings(const Draft& draft, const Check& check, Node& node) {
     if (title.is_set()) node.title = std::get<std::string>(title.value);
   }
   if (const Key* key = draft.find("seed")) {
-    const Setting seed = said(*key, ParameterType::integer, check.report(*key), at_least(0));
-    if (seed.is_set()) node.seed = static_cast<std::uint64_t>(std::get<std::int64_t>(seed.value));
+    if (key->value.is(Kind::integer) && key->value.integer >= 0)
+      node.seed = static_cast<std::uint64_t>(key->value.integer);
+    else
+      said(*key, ParameterType::integer, check.report(*key), at_least(0));
   }
 }
 

@@ -154,9 +154,10 @@ std::string format(const Diagnostics& diagnostics) {
 
 int exit_status(const Diagnostics& diagnostics) {
   if (diagnostics.empty()) return 0;
-  const bool plugins = std::ranges::all_of(
-      diagnostics, [](const Diagnostic& d) { return d.fault == Fault::plugin; });
-  return static_cast<int>(plugins ? Fault::plugin : Fault::graph);
+  const Fault first = diagnostics.front().fault;
+  const bool all =
+      std::ranges::all_of(diagnostics, [&](const Diagnostic& d) { return d.fault == first; });
+  return static_cast<int>(all ? first : Fault::graph);
 }
 
 }  // namespace velum::graph

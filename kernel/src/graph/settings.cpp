@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -137,7 +138,16 @@ class Parser {
     if (!value.is(Kind::integer))
       return wrong_type(value, value.is(Kind::number) ? "write it without a point" : "");
     if (!in_range(static_cast<double>(value.integer), value)) return {};
-    return {value.integer};
+    // Stages hold an integer in 32 bits unless its range says that it may be larger.
+    constexpr std::int64_t kLargest = std::numeric_limits<std::int32_t>::max();
+    const double high = parameter_.range.high;
+    if ((value.integer >= -kLargest && value.integer <= kLargest) ||
+        (std::isfinite(high) && high > static_cast<double>(kLargest)))
+      return {value.integer};
+    report_.error("E0206", value.where,
+                  fmt::format("{} is {}; it must be between {} and {}", called(), value.integer,
+                              -kLargest, kLargest));
+    return {};
   }
 
   /// As a double; a text is a share ("50 %") or repeats the parameter's own unit ("3 points").

@@ -91,7 +91,8 @@ Files find_plugin(const std::vector<fs::path>& path, std::string_view id) {
     fs::path file = folder / id.substr(0, dot) / id.substr(dot + 1);
     file += ".so";
     std::error_code failed;
-    if (fs::exists(file, failed)) files.push_back(std::move(file));
+    // A link that leads nowhere is a plugin that cannot be loaded, not one that nobody knows.
+    if (fs::exists(fs::symlink_status(file, failed))) files.push_back(std::move(file));
   }
   return files;
 }

@@ -131,7 +131,9 @@ void OutputFolder::refuse_strangers(const std::string& graph) {
   std::set<fs::path> ours = {kLockName};
   for (const auto& earlier : {from_record(path_ / kRecordName), from_lock(path_ / kLockName)}) {
     if (!earlier) continue;
-    if (earlier->graph != graph)
+    // A record can only hold a name that is UTF-8.
+    if (earlier->graph != graph &&
+        earlier->graph != Json::parse(dump(Json(graph))).get<std::string>())
       refuse(path_,
              fmt::format("the folder holds the results of another graph, {}", earlier->graph),
              "choose another folder with --out, or remove this one");

@@ -88,6 +88,17 @@ class Frame {
   RunRecord record_;
 };
 
+// The next run would take a cache in the output folder for somebody's files.
+void refuse_cache_within(const RunOptions& options) {
+  if (options.cache.empty()) return;
+  const fs::path out = fs::weakly_canonical(fs::absolute(options.out));
+  const fs::path cache = fs::weakly_canonical(fs::absolute(options.cache));
+  if (std::mismatch(out.begin(), out.end(), cache.begin(), cache.end()).first == out.end())
+    throw Error(Fault::graph, "the cache lies in the output folder")
+        .at(cache.string())
+        .hint("choose another folder with --cache or --out");
+}
+
 }  // namespace
 
 RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
@@ -95,6 +106,7 @@ RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
                     const std::function<void(const RunRecord&)>& started) {
   check_chosen(graph, options.only);
   const Frame frame(graph, options);
+  refuse_cache_within(options);
   OutputFolder folder(options.out, graph_name(graph.path), planned_files(graph));
   std::optional<Cache> cache;
   if (!options.cache.empty()) cache.emplace(options.cache, options.cache_limit);
