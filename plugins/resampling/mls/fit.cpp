@@ -174,13 +174,13 @@ void take_slopes(Polynomial& best, const Polynomial& lower) {
 }
 
 // The polynomial of the order that serves best, at most `order`, which becomes it.
-std::optional<Polynomial> fit_best(std::span<const Height> heights, int& order) {
+std::optional<Polynomial> fit_best(std::span<const Height> heights, int& order, bool may_lower) {
   std::optional<Polynomial> best;
   for (; order >= 0; --order) {
     best = fit_order(heights, order);
     if (best && (order <= 1 || best->leverage <= kMostLeverage)) break;
   }
-  for (int lower = order - 1; best && lower >= 1; --lower) {
+  for (int lower = order - 1; best && may_lower && lower >= 1; --lower) {
     const auto candidate = fit_order(heights, lower);
     if (!candidate) break;
     if (take_height(*best, *candidate)) order = lower;
@@ -215,7 +215,7 @@ std::optional<LocalSurface> fit_surface(const Support& support, const Eigen::Vec
   measure_heights(support, point, found, *plane, foot, options, heights);
   LocalSurface surface;
   surface.order = options.order;
-  const auto fitted = fit_best(heights, surface.order);
+  const auto fitted = fit_best(heights, surface.order, options.lower);
   if (!fitted) return std::nullopt;
   surface.step = foot + fitted->height * axis;
   surface.normal = (axis - fitted->slope_x / options.radius * plane->axes.vectors.col(2) -
@@ -224,6 +224,9 @@ std::optional<LocalSurface> fit_surface(const Support& support, const Eigen::Vec
   const Eigen::Vector3d& values = plane->axes.values;
   const double bend = std::clamp(values[0] - fitted->residual2, 0.0, std::max(values[0], 0.0));
   surface.curvature = bend / (bend + values[1] + values[2]);
+  surface.variance = fitted->variance;
+  surface.slope_variance = fitted->slope_variance / (options.radius * options.radius);
+  surface.slope_leverage = fitted->slope_leverage;
   return surface;
 }
 

@@ -18,6 +18,7 @@ struct FitOptions {
   int order = 2;
   double radius = 0.0;    ///< [m], of the neighbourhood
   double gaussian = 0.0;  ///< [m], h of the weight exp(−d²/h²)
+  bool lower = true;      ///< take a lower order where the neighbours lie on one side
 };
 
 /// The fitted surface at one point.
@@ -26,6 +27,9 @@ struct LocalSurface {
   Eigen::Vector3d normal;  ///< of the surface there, unit, of either sign
   double curvature;        ///< λ0/Σλ of the fitted surface, free of noise
   int order;               ///< that the neighbours allowed
+  double variance;         ///< of the height, in units of the points' σ²
+  double slope_variance;   ///< of the two slopes together [1/m²], in units of σ²
+  double slope_leverage;   ///< the same times radius² and the sum of the weights
 };
 
 /// Projects `point` on the surface that its neighbours describe (thesis 3.38 to 3.40): a weighted

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <velum/stage.hpp>
 
-#include "fit.hpp"
+#include "aware.hpp"
+#include "border/border_points.hpp"
+#include "geometry/normals.hpp"
 #include "geometry/thinning.hpp"
 #include "geometry/viewpoint.hpp"
 
@@ -22,6 +24,7 @@ constexpr std::size_t kMostNeighbours = 250;
 constexpr double kCellsPerRadius = 7.0;
 
 enum class Few { keep, drop };
+enum class Border { plain, aware };
 
 // The points that surfaces are fitted to, with their search index.
 class Basis {
@@ -42,6 +45,16 @@ class Basis {
       index_->each_within(cloud_.positions(), radius, context, visit);
     else
       cloud_.neighbours().each_within(radius, context, visit);
+  }
+  /// The same for some of the cloud's points; `visit` gets their place in `points`.
+  void each_within(const std::vector<std::int32_t>& points, double radius, velum::Context& context,
+                   const velum::Neighbours::Visitor& visit) const {
+    velum::Points queries(3, static_cast<Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      queries.col(static_cast<Index>(i)) = cloud_.positions().col(points[i]);
+    const velum::Neighbours& index = index_ ? *index_ : cloud_.neighbours();
+    index.each_within(velum::ConstPoints(queries.data(), 3, queries.cols()), radius, context,
+                      visit);
   }
 
  private:
@@ -87,6 +100,7 @@ struct Mls {
   int order = 2;
   std::optional<velum::Length> gaussian;
   Few few = Few::keep;
+  Border border = Border::plain;
 
   static auto about() {
     return velum::About<Mls>("Moves points onto the smooth surface that their neighbours describe.")
@@ -106,9 +120,18 @@ struct Mls {
         .choice(&Mls::few, "few", "what becomes of points whose neighbours fix no plane",
                 {{"keep", Few::keep, "they stay where they are"},
                  {"drop", Few::drop, "they are removed"}})
+        .choice(&Mls::border, "border", "what is done where neighbours lie on one side",
+                {{"plain", Border::plain, "the order is lowered where the noise asks for it"},
+                 {"aware", Border::aware,
+                  "the neighbourhood is widened inwards up to twice the radius as far as the "
+                  "surface allows, narrowed where it bends, and points go back along the ray that "
+                  "they were seen by; adds the column border"}})
         .deterministic()
         .reference("thesis 3.4: equations 3.38 to 3.40")
-        .reference("D. Levin, Mesh-Independent Surface Interpolation (2004)");
+        .reference("D. Levin, Mesh-Independent Surface Interpolation (2004)")
+        .reference(
+            "A. Goldenshluger and A. Nemirovski, On spatially adaptive estimation of nonparametric "
+            "regression, Mathematical Methods of Statistics 6 (1997): border = aware");
   }
 
   velum::Cloud operator()(const velum::Cloud& cloud, velum::Context& context) const {
@@ -116,10 +139,18 @@ struct Mls {
     Smoothed result(cloud);
     if (!cloud.empty()) smooth(cloud, context, result);
     report(result, context);
+    std::vector<std::uint8_t> at_border;
+    if (border == Border::aware) {
+      at_border = velum::border::border_points(cloud, context);
+      report_border(at_border, result.moved, context);
+    }
     velum::Cloud out =
         cloud.with_positions(std::move(result.positions))
             .with(velum::column::kNormals, velum::Column(std::move(result.normals)))
             .with(velum::column::kCurvature, velum::Column(std::move(result.curvature)));
+    if (border == Border::aware)
+      out = out.with("border", velum::Column(velum::VectorXu8(Eigen::Map<const velum::VectorXu8>(
+                                   at_border.data(), out.size()))));
     return few == Few::drop ? without_few(out, result.order) : out;
   }
 
@@ -129,24 +160,49 @@ struct Mls {
     const velum::mls::Support support = basis.support();
     const velum::geometry::Viewpoints viewpoints(cloud);
     const velum::mls::FitOptions options{order, radius, gaussian ? *gaussian : radius};
+    const bool aware = border == Border::aware;
+    const double noise = aware ? velum::geometry::estimate_noise(cloud, context) : 0.0;
     const auto positions = cloud.positions();
+    std::vector<std::uint8_t> widen(result.order.size(), 0);
     basis.each_within(radius, context, [&](Index i, Found found) {
       const Eigen::Vector3f point = positions.col(i);
       const auto slot = static_cast<std::size_t>(i);
       result.neighbours[slot] = static_cast<std::int32_t>(found.size());
-      const Eigen::Vector3d view = viewpoints.from(i);
-      const auto surface = velum::mls::fit_surface(support, point, found, options);
-      if (!surface) {
-        keep(cloud, i, view, result);
-        return;
-      }
-      const double side = surface->normal.dot(view) < 0.0 ? -1.0 : 1.0;
-      result.positions.col(i) = (point.cast<double>() + surface->step).cast<float>();
-      result.normals.col(i) = (side * surface->normal).cast<float>();
-      result.curvature[i] = static_cast<float>(surface->curvature);
-      result.moved[i] = surface->step.norm();
-      result.order[slot] = static_cast<std::int8_t>(surface->order);
+      auto surface = velum::mls::fit_surface(support, point, found, options);
+      if (aware && surface && velum::mls::one_sided(*surface, options)) widen[slot] = 1;
+      if (aware && surface && widen[slot] == 0)
+        surface = velum::mls::fit_aware(support, point, found, options, 1.0, noise);
+      place(cloud, i, surface, viewpoints.from(i), noise, result);
     });
+    std::vector<std::int32_t> wide;
+    for (std::size_t i = 0; i < widen.size(); ++i)
+      if (widen[i] != 0) wide.push_back(static_cast<std::int32_t>(i));
+    if (wide.empty()) return;
+    basis.each_within(wide, velum::mls::kWidest * radius, context, [&](Index query, Found found) {
+      const Index i = wide[static_cast<std::size_t>(query)];
+      const auto surface = velum::mls::fit_aware(support, positions.col(i), found, options,
+                                                 velum::mls::kWidest, noise);
+      place(cloud, i, surface, viewpoints.from(i), noise, result);
+    });
+  }
+
+  // Puts point i on `surface`.
+  void place(const velum::Cloud& cloud, Index i,
+             const std::optional<velum::mls::LocalSurface>& surface, const Eigen::Vector3d& view,
+             double noise, Smoothed& result) const {
+    if (!surface) {
+      keep(cloud, i, view, result);
+      return;
+    }
+    const bool by_ray = border == Border::aware && cloud.sensor_of(i) && view.norm() > 0.0;
+    const Eigen::Vector3d step =
+        by_ray ? velum::mls::step_along_ray(*surface, view, noise) : surface->step;
+    const double side = surface->normal.dot(view) < 0.0 ? -1.0 : 1.0;
+    result.positions.col(i) = (cloud.positions().col(i).cast<double>() + step).cast<float>();
+    result.normals.col(i) = (side * surface->normal).cast<float>();
+    result.curvature[i] = static_cast<float>(surface->curvature);
+    result.moved[i] = step.norm();
+    result.order[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(surface->order);
   }
 
   // A point without a surface keeps what it has; a normal that it has not is the way to the sensor.
@@ -161,6 +217,19 @@ struct Mls {
     result.curvature[i] = cloud.has(velum::column::kCurvature) ? cloud.curvature()[i] : 0.0F;
     result.moved[i] = 0.0;
     result.order[static_cast<std::size_t>(i)] = -1;
+  }
+
+  static void report_border(const std::vector<std::uint8_t>& at_border,
+                            const Eigen::VectorXd& moved, velum::Context& context) {
+    double squares = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < at_border.size(); ++i) {
+      if (at_border[i] == 0) continue;
+      const double step = moved[static_cast<Index>(i)];
+      squares += step * step;
+      count += 1.0;
+    }
+    context.measure("border_points", count, "");
+    context.measure("border_moved_rms", count > 0.0 ? std::sqrt(squares / count) : 0.0, "m");
   }
 
   static velum::Cloud without_few(const velum::Cloud& cloud,
