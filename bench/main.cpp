@@ -73,8 +73,8 @@ int main(int argc, char** argv) try {
   if (sizes.empty()) sizes = {20'000, 100'000, 1'000'000};
 
   std::vector<bench::Contender> all = bench::ours();
-  for (const auto& peer :
-       {bench::pcl_contenders(), bench::open3d_contenders(), bench::cgal_contenders()})
+  for (const auto& peer : {bench::our_small_ones(), bench::pcl_contenders(),
+                           bench::open3d_contenders(), bench::cgal_contenders()})
     all.insert(all.end(), peer.begin(), peer.end());
 
   fmt::print(

@@ -27,6 +27,7 @@ struct Contender {
 };
 
 std::vector<Contender> ours();
+std::vector<Contender> our_small_ones();
 std::vector<Contender> pcl_contenders();
 std::vector<Contender> open3d_contenders();
 std::vector<Contender> cgal_contenders();

@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <omp.h>
+#include <pcl/common/transforms.h>
 #include <pcl/features/normal_3d_omp.h>
+#include <pcl/filters/crop_box.h>
 #include <pcl/filters/radius_outlier_removal.h>
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 #include <pcl/registration/icp.h>
+#include <pcl/registration/transformation_estimation_svd.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/region_growing.h>
 #include <pcl/surface/gp3.h>
 #include <pcl/surface/mls.h>
+
+#include <numeric>
 
 #include "timing.hpp"
 
@@ -148,6 +153,52 @@ std::function<void()> greedy_projection(const Input& input) {
   };
 }
 
+std::function<void()> box(const Input& input) {
+  return [cloud = plain(input.cloud)] {
+    pcl::CropBox<pcl::PointXYZ> filter;
+    filter.setInputCloud(cloud);
+    filter.setMin({0.0F, -2.0F, 1.0F, 1.0F});
+    filter.setMax({2.0F, 2.0F, 4.0F, 1.0F});
+    Plain out;
+    filter.filter(out);
+  };
+}
+
+std::function<void()> moved(const Input& input) {
+  const Eigen::Affine3f motion(
+      Eigen::AngleAxisf(0.5F, Eigen::Vector3f(1.0F, 2.0F, 3.0F).normalized()));
+  return [cloud = oriented(input.normals), motion] {
+    Oriented out;
+    pcl::transformPointCloudWithNormals(*cloud, out, motion);
+  };
+}
+
+std::function<void()> merged(const Input& input) {
+  return [a = plain(input.cloud), b = plain(input.moved)] { const Plain out = *a + *b; };
+}
+
+std::function<void()> svd(const Input& input) {
+  return [a = plain(input.cloud), b = plain(input.moved)] {
+    pcl::Indices first(1000);
+    std::iota(first.begin(), first.end(), 0);
+    Eigen::Matrix4f motion;
+    pcl::registration::TransformationEstimationSVD<pcl::PointXYZ, pcl::PointXYZ>()
+        .estimateRigidTransformation(*a, first, *b, first, motion);
+  };
+}
+
+std::function<void()> write_pcd(const Input& input) {
+  return [cloud = plain(input.cloud), file = input.folder + "/pcl.pcd"] {
+    pcl::io::savePCDFileBinary(file, *cloud);
+  };
+}
+
+std::function<void()> write_ply(const Input& input) {
+  return [cloud = plain(input.cloud), file = input.folder + "/pcl.ply"] {
+    pcl::io::savePLYFileBinary(file, *cloud);
+  };
+}
+
 template <int (*Load)(const std::string&, Plain&)>
 std::function<void()> reader(const std::string& file) {
   return [file] {
@@ -170,6 +221,12 @@ std::vector<Contender> pcl_contenders() {
       {"ICP point to point, 25 iterations", "PCL", point_to_point},
       {"ICP point to plane, 25 iterations", "PCL", point_to_plane},
       {"meshing", "PCL greedy projection", greedy_projection},
+      {"region of interest", "PCL", box},
+      {"move a cloud", "PCL", moved},
+      {"merge two clouds", "PCL", merged},
+      {"SVD of 1,000 pairs", "PCL", svd},
+      {"write PCD, binary", "PCL", write_pcd},
+      {"write PLY, binary", "PCL", write_ply},
       {"read PCD, binary", "PCL",
        [](const Input& i) { return reader<loadPCDFile>(i.folder + "/cloud.pcd"); }},
       {"read PCD, ascii", "PCL",

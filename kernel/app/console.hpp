@@ -16,8 +16,8 @@ namespace velum::app {
 void take_standard_output();
 /// To the true standard output. What cannot be written there is lost; check_output tells.
 void print(std::string_view text);
-/// Throws Error (Fault::output) when something could not be printed, but for a pipe whose reader has
-/// left.
+/// Throws Error (Fault::output) when something could not be printed, but for a pipe whose reader
+/// has left.
 void check_output();
 /// Is the true standard output a terminal?
 bool on_terminal();

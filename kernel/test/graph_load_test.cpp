@@ -188,9 +188,8 @@ TEST_CASE("E0502: output files") {
         Lines{of + "'a/../../b.ply' leaves the output folder | outputs are written below --out"});
   CHECK(write("a/") == Lines{of + "'a/' names no file"});
   CHECK(write(".") == Lines{of + "'.' names no file"});
-  CHECK(write("./run.json") ==
-        Lines{of + "'./run.json' is a name of the run's own | choose "
-                   "another name"});
+  CHECK(write("./run.json") == Lines{of + "'./run.json' is a name of the run's own | choose "
+                                          "another name"});
   CHECK(write(".velum.scratch/x.ply").size() == 1);
   CHECK(write("run.json/x.ply").size() == 1);
   const Folder folder;
