@@ -3,16 +3,24 @@
 #pragma once
 
 #include <limits>
+#include <numbers>
 #include <vector>
 
-#include "registration/normal_equations.hpp"
+#include "registration/uncertainty.hpp"
 #include "velum/cloud.hpp"
 #include "velum/context.hpp"
 #include "velum/table.hpp"
 
 namespace velum::registration {
 
-enum class Metric { point_to_point, point_to_plane };
+/// What is minimised: distances of the pairs, from the target's tangent planes, or from planes
+/// between both (Rusinkiewicz 2019).
+enum class Metric { point_to_point, point_to_plane, symmetric };
+/// How a step's motion is found. Automatic: svd for point to point, helical for the others.
+enum class Solver { automatic, svd, linearised, helical };
+enum class Pairing { nearest, reciprocal };
+enum class Sampling { all, random, curvature };
+enum class Kernel { none, huber, tukey };
 
 struct IcpOptions {
   Metric metric = Metric::point_to_point;
@@ -21,6 +29,18 @@ struct IcpOptions {
   int iterations = 25;  ///< at each level
   double relative_change = 1e-3;
   int levels = 1;  ///< level l from the last uses every 4^l-th source point
+  Solver solver = Solver::automatic;
+  Pairing pairing = Pairing::nearest;
+  /// Between the normals of a pair that counts [rad]; π and more: not asked.
+  double normal_angle = std::numbers::pi;
+  Sampling sampling = Sampling::all;
+  double sample = 0.1;  ///< share of the source that sampling takes
+  Kernel kernel = Kernel::none;
+  double kernel_scale = 0.0;  ///< one standard deviation [m]; 0: from the pairs, at each step
+  /// A step that turns [rad] and shifts the barycentre [m] by less than these ends it; both 0: not
+  /// asked.
+  double still_rotation = 0.0;
+  double still_translation = 0.0;
 };
 
 /// One iteration: what was found at its start, and the motion that it made.
@@ -37,16 +57,17 @@ struct IcpResult {
   Pose pose = Pose::Identity();  ///< source → target, of coordinates relative to their origins
   std::vector<IcpStep> steps;
   int iterations = 0;
-  bool converged = false;  ///< by the change of the error, not the number of iterations
+  bool converged = false;  ///< by the change of the error or the motion, not the iterations
   Index pairs = 0;
-  double fitness = 0.0;                    ///< mean squared distance of the pairs at the end [m²]
-  double overlap = 0.0;                    ///< share of the source points that have a pair
-  NormalEquations::Directions directions;  ///< how well each direction is fixed
+  double fitness = 0.0;  ///< mean squared distance of the pairs at the end [m²]
+  double overlap = 0.0;  ///< share of the source points that have a pair
+  Uncertainty uncertainty;
 };
 
 /// Algorithm 3.1 of the thesis (Besl and McKay 1992; Chen and Medioni 1991) from `start`. Point to
-/// plane needs normals of the target. Throws Error(Fault::stage) when too few pairs are near
-/// enough.
+/// plane needs normals of the target, the symmetric metric and `normal_angle` those of both, and
+/// sampling by curvature the source's `curvature`. Throws Error(Fault::stage) when too few pairs
+/// are near enough.
 IcpResult icp(const Cloud& source, const Cloud& target, const Pose& start,
               const IcpOptions& options, Context& context);
 

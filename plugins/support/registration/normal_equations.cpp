@@ -33,11 +33,19 @@ void NormalEquations::add(const Eigen::Vector3d& point, const Eigen::Vector3d& n
   weight_ += weight;
 }
 
-void NormalEquations::add(const NormalEquations& other) {
-  matrix_ += other.matrix_;
-  right_ += other.right_;
-  squares_ += other.squares_;
-  weight_ += other.weight_;
+void NormalEquations::add(const Matrix6& matrix, const Vector6& right, double squares,
+                          double weight) {
+  matrix_ += matrix;
+  right_ += right;
+  squares_ += squares;
+  weight_ += weight;
+}
+
+void NormalEquations::scale(double times) {
+  matrix_ *= times;
+  right_ *= times;
+  squares_ *= times;
+  weight_ *= times;
 }
 
 NormalEquations::Directions NormalEquations::directions(double radius) const {
@@ -47,14 +55,14 @@ NormalEquations::Directions NormalEquations::directions(double radius) const {
   return {solver.eigenvalues().cwiseMax(0.0), solver.eigenvectors(), radius};
 }
 
-Pose NormalEquations::solve(double radius, double cutoff) const {
+Vector6 NormalEquations::twist(double radius, double cutoff) const {
   const Vector6 scale = arc_scale(radius);
   const Directions found = directions(radius);
   const Vector6 right = found.axes.transpose() * (scale.asDiagonal() * right_) / weight_;
   Vector6 steps = Vector6::Zero();
   for (int k = 0; k < 6; ++k)
     if (found.strength[k] > cutoff) steps[k] = right[k] / found.strength[k];
-  return geometry::exponential(scale.asDiagonal() * (found.axes * steps), centre_);
+  return scale.asDiagonal() * (found.axes * steps);
 }
 
 NormalEquations::Deviations NormalEquations::deviations(double radius, double sigma) const {
@@ -75,6 +83,16 @@ NormalEquations::Deviations NormalEquations::deviations(double radius, double si
   };
   return {largest(covariance.topLeftCorner<3, 3>()) / std::max(radius, 1e-300),
           largest(covariance.bottomRightCorner<3, 3>())};
+}
+
+Pose euler_motion(const Vector6& twist, const Eigen::Vector3d& centre) {
+  Pose pose = Pose::Identity();
+  pose.linear() = (Eigen::AngleAxisd(twist[2], Eigen::Vector3d::UnitZ()) *
+                   Eigen::AngleAxisd(twist[1], Eigen::Vector3d::UnitY()) *
+                   Eigen::AngleAxisd(twist[0], Eigen::Vector3d::UnitX()))
+                      .toRotationMatrix();
+  pose.translation() = centre + twist.tail<3>() - pose.linear() * centre;
+  return pose;
 }
 
 std::string describe_direction(const Vector6& axis) {

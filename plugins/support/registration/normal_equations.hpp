@@ -20,8 +20,14 @@ class NormalEquations {
   /// A point that should move by `gap` along `normal`.
   void add(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double gap,
            double weight = 1.0);
+  /// Sums of many rows: Σ w·row·rowᵀ, Σ w·gap·row, Σ w·gap², Σ w.
+  void add(const Matrix6& matrix, const Vector6& right, double squares, double weight);
   /// The same equations about the same centre.
-  void add(const NormalEquations& other);
+  void add(const NormalEquations& other) {
+    add(other.matrix_, other.right_, other.squares_, other.weight_);
+  }
+  /// As if every pair counted `times` as much.
+  void scale(double times);
 
   [[nodiscard]] const Eigen::Vector3d& centre() const { return centre_; }
   [[nodiscard]] double weight() const { return weight_; }
@@ -38,8 +44,13 @@ class NormalEquations {
     double radius;
   };
   [[nodiscard]] Directions directions(double radius) const;
-  /// The motion; directions weaker than `cutoff` are left alone.
-  [[nodiscard]] Pose solve(double radius, double cutoff) const;
+  /// The motion as a turn and the shift of the centre; directions weaker than `cutoff` are left
+  /// alone.
+  [[nodiscard]] Vector6 twist(double radius, double cutoff) const;
+  /// The helical motion of that twist.
+  [[nodiscard]] Pose solve(double radius, double cutoff) const {
+    return geometry::exponential(twist(radius, cutoff), centre_);
+  }
   /// σ²·H⁻¹ with turns in arc at `radius`: the largest standard deviations [rad], [m] when each
   /// unit of weight is one measurement of deviation `sigma` [m]. Infinite where a direction is
   /// free.
@@ -56,6 +67,10 @@ class NormalEquations {
   double squares_ = 0.0;
   double weight_ = 0.0;
 };
+
+/// The motion that the thesis makes of a twist (3.25, 3.26): its turn as angles about x, y, z in
+/// this order, then its shift. The same as the exponential to first order only.
+Pose euler_motion(const Vector6& twist, const Eigen::Vector3d& centre);
 
 /// "sliding along (0.00, 1.00, 0.00)" or "turning about (...)": what dominates a column of
 /// Directions::axes.

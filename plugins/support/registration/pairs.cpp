@@ -3,7 +3,8 @@
 #include "registration/pairs.hpp"
 
 #include <cmath>
-#include <utility>
+
+#include "registration/along_curve.hpp"
 
 namespace velum::registration {
 namespace {
@@ -12,11 +13,31 @@ constexpr Index kGrain = 4096;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Room for rounding of single-precision distances in the test that spares a search.
 constexpr float kSlack = 1e-5F;
+/// The same for a known distance as the limit of a search.
+constexpr double kRoom = 1e-6;
+/// No search goes farther than this many times the distance that counts: far enough that it need
+/// not be repeated at the next step.
+constexpr double kFar = 2.0;
+/// Below this share of the target's spacing, steps are short enough that knowing the second closest
+/// spares searches.
+constexpr double kShortStep = 0.2;
+
+float squared_distance(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  return (a - b).squaredNorm();
+}
 
 }  // namespace
 
-ClosestPairs::ClosestPairs(Points source, const Cloud& target)
-    : source_(std::move(source)), target_(target), searched_at_(Points::Zero(3, source_.cols())) {
+ClosestPairs::ClosestPairs(const Eigen::Ref<const Points>& source, const Cloud& target)
+    : original_(along_curve(source)),
+      source_(3, source.cols()),
+      target_(target),
+      searched_at_(Points::Zero(3, source.cols())),
+      there_(Points::Zero(3, source.cols())) {
+  for (Index i = 0; i < source_.cols(); ++i) {
+    source_.col(i) = source.col(original(i));
+    box_.extend(source_.col(i).cast<double>());
+  }
   const auto n = static_cast<std::size_t>(source_.cols());
   match_.assign(n, -1);
   first_.assign(n, 0.0F);
@@ -32,51 +53,81 @@ Index ClosestPairs::count() const {
 
 bool ClosestPairs::keeps_match(Index i, const Eigen::Vector3f& now) {
   const auto at = static_cast<std::size_t>(i);
-  if (match_[at] < 0) return false;
   const float gone = (now - searched_at_.col(i)).norm();
-  const float distance = (now - target_.positions().col(match_[at])).norm();
-  distance_[at] = distance;
-  const float slack = kSlack * (distance + gone + second_[at]);
-  if (distance + gone + slack < second_[at]) return true;
+  if (match_[at] >= 0) {
+    const float distance = (now - there_.col(i)).norm();
+    distance_[at] = distance;
+    if (distance + gone + kSlack * (distance + gone + second_[at]) < second_[at]) return true;
+  }
   // Still too far from everything: the match may be another, but it does not count either way.
+  const float slack = kSlack * (gone + first_[at]);
   return static_cast<double>(first_[at] - gone - slack) > max_distance_;
 }
 
-void ClosestPairs::search(const std::vector<std::int32_t>& which, Context& context) {
-  const Neighbours& neighbours = target_.neighbours();
-  // One by one: while the clouds are apart, the points around a match are far more than those near
-  // it, which is what the answers for many queries at once are made for.
-  parallel_for(context, static_cast<Index>(which.size()), kGrain / 4, [&](Index begin, Index end) {
-    std::vector<Neighbour> found;
-    for (Index k = begin; k < end; ++k) {
-      const std::int32_t point = which[static_cast<std::size_t>(k)];
-      const Eigen::Vector3f now = moved(point).cast<float>();
-      searched_at_.col(point) = now;
-      neighbours.nearest(now, 2, found);
-      if (found.empty()) continue;
-      const auto at = static_cast<std::size_t>(point);
-      match_[at] = found[0].index;
-      first_[at] = std::sqrt(found[0].distance2);
-      second_[at] = found.size() > 1 ? std::sqrt(found[1].distance2) : kInfinity;
-      distance_[at] = first_[at];
-    }
-  });
+void ClosestPairs::set(Index i, const Neighbour& nearest, float second) {
+  const auto at = static_cast<std::size_t>(i);
+  if (nearest.index >= 0 && match_[at] != nearest.index)
+    there_.col(i) = target_.positions().col(nearest.index);
+  match_[at] = nearest.index;
+  first_[at] = nearest.index >= 0 ? std::sqrt(nearest.distance2) : second;
+  second_[at] = nearest.index >= 0 ? second : kInfinity;
+  distance_[at] = nearest.index >= 0 ? first_[at] : kInfinity;
+}
+
+/// The closest alone. `hint` is another point, whose match bounds the search too.
+void ClosestPairs::search_one(Index i, const Eigen::Vector3f& now, Index hint) {
+  float known2 = kInfinity;
+  for (const Index known : {i, hint})
+    if (match_[static_cast<std::size_t>(known)] >= 0)
+      known2 = std::min(known2, squared_distance(now, there_.col(known)));
+  const double far = kFar * max_distance_;
+  // Not zero, or the search for a point in the very place would find nothing.
+  const double known = std::sqrt(static_cast<double>(known2)) * (1.0 + kRoom) + 1e-30;
+  const Neighbour found = target_.neighbours().nearest_one(now, std::min(known, far));
+  set(i, found,
+      found.index >= 0 ? std::sqrt(found.distance2) : static_cast<float>(far * (1.0 - kRoom)));
+}
+
+void ClosestPairs::search_two(Index i, const Eigen::Vector3f& now, std::vector<Neighbour>& found) {
+  target_.neighbours().nearest(now, 2, found);
+  if (found.empty()) return;
+  set(i, found[0], found.size() > 1 ? std::sqrt(found[1].distance2) : kInfinity);
+}
+
+/// How far the change to `pose` moves any source point, at most [m].
+double ClosestPairs::farthest_step(const Pose& pose) const {
+  double farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d at = box_.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    farthest = std::max(farthest, (pose * at - pose_ * at).norm());
+  }
+  return farthest;
 }
 
 void ClosestPairs::update(const Pose& pose, double max_distance, Context& context) {
+  const Index n = size();
+  if (n == 0 || target_.empty()) return;
+  const bool short_step = farthest_step(pose) < kShortStep * target_.spacing();
   pose_ = pose;
   max_distance_ = max_distance;
-  const Index n = size();
-  std::vector<std::vector<std::int32_t>> stale(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
+  std::vector<Index> searched(static_cast<std::size_t>((n + kGrain - 1) / kGrain), 0);
   parallel_for(context, n, kGrain, [&](Index begin, Index end) {
-    auto& mine = stale[static_cast<std::size_t>(begin / kGrain)];
-    for (Index i = begin; i < end; ++i)
-      if (!keeps_match(i, moved(i).cast<float>())) mine.push_back(static_cast<std::int32_t>(i));
+    std::vector<Neighbour> found;
+    Index& mine = searched[static_cast<std::size_t>(begin / kGrain)];
+    for (Index i = begin; i < end; ++i) {
+      const Eigen::Vector3f now = moved(i).cast<float>();
+      if (keeps_match(i, now)) continue;
+      ++mine;
+      searched_at_.col(i) = now;
+      if (short_step && match(i) >= 0) {
+        search_two(i, now, found);
+      } else {
+        search_one(i, now, std::max(begin, i - 1));
+      }
+    }
   });
-  std::vector<std::int32_t> all;
-  for (const auto& part : stale) all.insert(all.end(), part.begin(), part.end());
-  searched_ = static_cast<Index>(all.size());
-  if (!all.empty()) search(all, context);
+  searched_ = 0;
+  for (const Index part : searched) searched_ += part;
 }
 
 }  // namespace velum::registration
