@@ -6,11 +6,11 @@
 #include <cmath>
 #include <velum/stage.hpp>
 
-#include "aware.hpp"
 #include "border/border_points.hpp"
 #include "geometry/normals.hpp"
 #include "geometry/thinning.hpp"
 #include "geometry/viewpoint.hpp"
+#include "mls/aware.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-#include "fit.hpp"
+#include "mls/fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

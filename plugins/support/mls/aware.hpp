@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fit.hpp"
+#include "mls/fit.hpp"
 
 namespace velum::mls {
 

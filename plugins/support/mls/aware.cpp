@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-#include "aware.hpp"
+#include "mls/aware.hpp"
 
 #include <algorithm>
 #include <array>
