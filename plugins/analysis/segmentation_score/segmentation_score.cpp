@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <velum/stage.hpp>
 
 namespace {
@@ -17,6 +18,10 @@ struct Score {
   [[nodiscard]] double precision() const { return share(correct, points); }
   [[nodiscard]] double recall() const { return share(correct, truth); }
   [[nodiscard]] double iou() const { return share(correct, points + truth - correct); }
+  /// As the thesis counts (tables 3.24, 3.26 and 3.27): 1 - |found - true| / true, right or wrong.
+  [[nodiscard]] double counted() const {
+    return truth > 0 ? 1.0 - share(std::abs(points - truth), truth) : 0.0;
+  }
 
  private:
   static double share(std::int64_t part, std::int64_t whole) {
@@ -39,7 +44,8 @@ struct SegmentationScore {
         .param(&SegmentationScore::cluster, "cluster",
                "number of the cluster to be judged; unset: the one with the best IoU",
                velum::at_least(0))
-        .deterministic();
+        .deterministic()
+        .reference("thesis 3.3.2.5 and 3.3.3.2: tables 3.24, 3.26 and 3.27");
   }
 
   velum::Table operator()(const std::variant<velum::Clusters, velum::Cloud>& found,
@@ -136,6 +142,7 @@ struct SegmentationScore {
     }
     context.measure("recall", score.recall(), "", Better::higher);
     context.measure("iou", score.iou(), "", Better::higher);
+    context.measure("counted", score.counted(), "", Better::higher);
   }
 
   static velum::Table empty_table() {

@@ -52,6 +52,12 @@ TEST_CASE("the best cluster is judged by precision, recall and IoU") {
   CHECK(outcome.measure("iou") == Approx(4.0 / 7.0));
 }
 
+TEST_CASE("as the thesis counts, wrong points make up for missing ones") {
+  // Five found for six: 1 - 1/6, though one of them is wrong.
+  CHECK(stage("[7]").run(example()).measure("counted") == Approx(5.0 / 6.0));
+  CHECK(stage("[1]").set("cluster", "0").run(example()).measure("counted") == Approx(-0.5));
+}
+
 TEST_CASE("a cluster can be named") {
   const Outcome outcome = stage("[7]").set("cluster", "1").run(example());
   CHECK(outcome.measure("precision") == Approx(1.0 / 3.0));
