@@ -40,6 +40,7 @@ if(VELUM_SANITIZE)
   target_compile_options(velum_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(velum_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:LINKER:-z,undefs>)
+  target_compile_options(velum_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/ubsan_ignore.txt>)
 endif()
 if(VELUM_FUZZ)
   target_compile_options(velum_options INTERFACE -fsanitize=fuzzer-no-link)

@@ -43,6 +43,7 @@ OutField column_field(std::string name, FieldType type, const Column& column, In
   const std::size_t element = size_of(column.scalar());
   field.fill = [column, element, first, bytes = field.bytes()](Index begin, Index end,
                                                                std::byte* to, std::size_t stride) {
+    if (begin == end) return;
     const std::size_t step = element * static_cast<std::size_t>(column.width());
     copy_strided(column.bytes().data() + static_cast<std::size_t>(begin) * step +
                      static_cast<std::size_t>(first) * element,
