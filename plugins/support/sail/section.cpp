@@ -45,8 +45,9 @@ class EndTable {
   }
   [[nodiscard]] std::optional<Ends> at(double z) const {
     const double place = (z - low_) / step_;
-    const auto i = static_cast<std::size_t>(std::clamp(place, 0.0, kRows - 1.0));
-    if (!(place >= 0.0 && place <= kRows) || !rows_[i] || !rows_[i + 1]) return std::nullopt;
+    if (!(place >= 0.0 && place <= kRows)) return std::nullopt;  // no number where low is high
+    const auto i = static_cast<std::size_t>(std::min(place, kRows - 1.0));
+    if (!rows_[i] || !rows_[i + 1]) return std::nullopt;
     const double s = place - static_cast<double>(i);
     return Ends{(1.0 - s) * rows_[i]->luff + s * rows_[i + 1]->luff,
                 (1.0 - s) * rows_[i]->leech + s * rows_[i + 1]->leech};
