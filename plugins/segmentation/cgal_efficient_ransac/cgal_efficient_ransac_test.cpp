@@ -107,6 +107,18 @@ TEST_CASE("the same seed gives the same result") {
   CHECK(labels(3) == labels(3));
 }
 
+TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
+  Stage made("segmentation.cgal_efficient_ransac");
+  made.set("model", "plane").set("epsilon", "2 m");
+  std::string faults;
+  if (!velum::test::holds_on_terrain(
+          made, {{"samp11", 0.252, 0.823}, {"samp22", 0.836, 0.891}, {"samp53", 0.339, 0.974}},
+          faults))
+    WARN("skipped: VELUM_SHARED has no ISPRS scans");
+  INFO(faults);
+  CHECK(faults.empty());
+}
+
 TEST_CASE("conformance") {
   for (const auto& fault : velum::test::conformance("segmentation.cgal_efficient_ransac"))
     FAIL_CHECK(fault);

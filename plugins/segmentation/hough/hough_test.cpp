@@ -144,6 +144,18 @@ TEST_CASE("the table under objects that people labelled (mOSD)") {
   }
 }
 
+TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
+  Stage made("segmentation.hough");
+  made.set("epsilon", "2 m");
+  std::string faults;
+  if (!velum::test::holds_on_terrain(
+          made, {{"samp11", 0.165, 0.825}, {"samp22", 0.579, 0.934}, {"samp53", 0.107, 0.980}},
+          faults))
+    WARN("skipped: VELUM_SHARED has no ISPRS scans");
+  INFO(faults);
+  CHECK(faults.empty());
+}
+
 TEST_CASE("conformance") {
   for (const auto& fault : velum::test::conformance("segmentation.hough")) FAIL_CHECK(fault);
 }

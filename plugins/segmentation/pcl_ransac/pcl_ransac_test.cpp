@@ -100,6 +100,34 @@ TEST_CASE("shapes come one after another") {
   CHECK(lower.measure("clusters") == 2.0);
 }
 
+TEST_CASE("the table under objects that people labelled (mOSD), when normals weigh little") {
+  for (const std::string name : {"learn0", "learn36"}) {
+    const auto scan = velum::test::tabletop(name);
+    if (!scan) {
+      WARN("skipped: VELUM_SHARED has no mOSD");
+      return;
+    }
+    const Outcome outcome = Stage("segmentation.pcl_ransac")
+                                .set("epsilon", "10 mm")
+                                .set("normal_weight", "0.02")
+                                .set("shapes", "1")
+                                .run(velum::test::joined_labels(*scan, 1, 9, 1));
+    CHECK(velum::test::score(outcome.get<Clusters>(), 1).iou() > 0.95);
+  }
+}
+
+TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
+  Stage made("segmentation.pcl_ransac");
+  made.set("epsilon", "2 m").set("shapes", "1");
+  std::string faults;
+  if (!velum::test::holds_on_terrain(
+          made, {{"samp11", 0.454, 0.726}, {"samp22", 0.825, 0.920}, {"samp53", 0.278, 0.979}},
+          faults))
+    WARN("skipped: VELUM_SHARED has no ISPRS scans");
+  INFO(faults);
+  CHECK(faults.empty());
+}
+
 TEST_CASE("conformance") {
   for (const auto& fault : velum::test::conformance("segmentation.pcl_ransac")) FAIL_CHECK(fault);
 }
