@@ -4,7 +4,7 @@
 
 #include "cgal/delaunay_2.hpp"
 #include "geometry/normals.hpp"
-#include "mesh/topology.hpp"
+#include "mesh/build.hpp"
 #include "projection.hpp"
 #include "trim.hpp"
 
@@ -84,40 +84,6 @@ Index count_folds(const std::vector<Triangle>& triangles, const Cloud& cloud) {
   });
 }
 
-/// Turns all triangles so that most of them look at the sensor of their vertices.
-void face_sensors(std::vector<Triangle>& triangles, const Cloud& cloud) {
-  if (cloud.sensors().empty()) return;
-  const auto positions = cloud.positions();
-  double towards = 0.0;
-  for (const Triangle& t : triangles) {
-    const Eigen::Vector3d a = positions.col(t[0]).cast<double>();
-    const Eigen::Vector3d area =
-        (positions.col(t[1]).cast<double>() - a).cross(positions.col(t[2]).cast<double>() - a);
-    const Eigen::Vector3d ray = cloud.sensor_position(*cloud.sensor_of(t[0])).cast<double>() - a;
-    towards += area.dot(ray.normalized());
-  }
-  if (towards < 0.0)
-    for (Triangle& t : triangles) std::swap(t[1], t[2]);
-}
-
-Mesh assemble(const std::vector<Triangle>& triangles, const Cloud& cloud) {
-  std::vector<std::int32_t> place(static_cast<std::size_t>(cloud.size()), -1);
-  for (const Triangle& t : triangles)
-    for (const std::int32_t v : t) place[static_cast<std::size_t>(v)] = 0;
-  std::vector<std::int32_t> used;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] < 0) continue;
-    place[v] = static_cast<std::int32_t>(used.size());
-    used.push_back(static_cast<std::int32_t>(v));
-  }
-  velum::Triangles out(3, static_cast<Index>(triangles.size()));
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int side = 0; side < 3; ++side)
-      out(side, static_cast<Index>(t)) =
-          place[static_cast<std::size_t>(triangles[t][static_cast<std::size_t>(side)])];
-  return Mesh(cloud.select(used), std::move(out));
-}
-
 Sheet DelaunayProjected::triangulate(const Eigen::Matrix2Xd& projected, const Cloud& cloud,
                                      const velum::meshing::TrimRules& rules) const {
   Sheet sheet{velum::cgal::delaunay_2(projected)};
@@ -172,8 +138,8 @@ Mesh DelaunayProjected::operator()(const Cloud& input, Context& context) const {
     context.warn(
         "no triangle: fewer than three points, points on a line, or every edge is longer "
         "than max_edge");
-  face_sensors(sheet.triangles, cloud);
-  Mesh mesh = assemble(sheet.triangles, input);
+  velum::mesh::orient(sheet.triangles, cloud);
+  Mesh mesh = velum::mesh::mesh_over(sheet.triangles, input);
   if (sheet.fold_share() > kFoldsAllowed && sheet.folds > 0)
     context.warn("the projection folds: " + std::to_string(sheet.folds) + " of " +
                  std::to_string(sheet.triangles.size()) +

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <queue>
 
+#include "mesh/build.hpp"
+
 namespace velum::meshing {
 namespace {
 
@@ -13,11 +15,6 @@ constexpr double kLongEdge = 6.0;      // of the local spacing
 constexpr double kSliverRadius = 4.0;  // circumradius, of the local spacing
 
 using Triangles = std::vector<mesh::Triangle>;
-
-ConstTriangles view(const Triangles& triangles) {
-  return {triangles.empty() ? nullptr : triangles.front().data(), 3,
-          static_cast<Index>(triangles.size())};
-}
 
 double edge_length(const ConstPoints& positions, std::int32_t a, std::int32_t b) {
   return (positions.col(a).cast<double>() - positions.col(b).cast<double>()).norm();
@@ -32,7 +29,7 @@ void keep(Triangles& triangles, const std::vector<char>& flags) {
 }
 
 bool keep_largest_part(Triangles& triangles) {
-  const mesh::Components parts = mesh::components(mesh::adjacency(view(triangles)));
+  const mesh::Components parts = mesh::components(mesh::adjacency(mesh::view(triangles)));
   if (parts.count <= 1) return false;
   std::vector<Index> sizes(static_cast<std::size_t>(parts.count), 0);
   for (const std::int32_t part : parts.of) ++sizes[static_cast<std::size_t>(part)];
@@ -92,8 +89,8 @@ bool clear_small_fans(const mesh::Adjacency& adjacency, std::span<const std::int
 }
 
 bool remove_pinches(Triangles& triangles, Index vertices) {
-  const mesh::Adjacency adjacency = mesh::adjacency(view(triangles));
-  if (mesh::pinched_vertices(view(triangles), adjacency) == 0) return false;
+  const mesh::Adjacency adjacency = mesh::adjacency(mesh::view(triangles));
+  if (mesh::pinched_vertices(mesh::view(triangles), adjacency) == 0) return false;
   const Fans fans(triangles, vertices);
   std::vector<char> flags(triangles.size(), 1);
   for (std::int32_t v = 0; v < vertices; ++v) clear_small_fans(adjacency, fans.at(v), flags);
@@ -116,7 +113,7 @@ class Peeler {
       : triangles_(triangles),
         positions_(positions),
         rules_(rules),
-        adjacency_(mesh::adjacency(view(triangles))),
+        adjacency_(mesh::adjacency(mesh::view(triangles))),
         alive_(triangles.size(), 1),
         on_border_(static_cast<std::size_t>(positions.cols()), 0) {
     for (std::size_t t = 0; t < triangles.size(); ++t)
