@@ -230,7 +230,7 @@ TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README say
   made.set("model", "plane").set("epsilon", "2 m");
   std::string faults;
   if (!velum::test::holds_on_terrain(
-          made, {{"samp11", 0.190, 0.850}, {"samp22", 0.604, 0.933}, {"samp53", 0.139, 0.979}},
+          made, {{"samp11", 0.203, 0.845}, {"samp22", 0.598, 0.922}, {"samp53", 0.172, 0.979}},
           faults))
     WARN("skipped: VELUM_SHARED has no ISPRS scans");
   INFO(faults);

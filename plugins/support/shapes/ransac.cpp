@@ -18,6 +18,7 @@ constexpr Index kBatch = 256;        // samples between two looks at the pool
 constexpr Index kFirstSubset = 512;  // points of the first test of a candidate
 constexpr Index kRefitSubset = 4096;
 constexpr std::size_t kPool = 48;
+constexpr std::size_t kRefits = 4;     // of the candidates of a batch
 constexpr Index kMostSamples = 60000;  // for one shape
 
 struct Candidate {
@@ -156,7 +157,7 @@ class Ransac {
             static_cast<double>(one.agreed) / static_cast<double>(kFirstSubset);
         fresh.push_back(one);
       }
-    keep_best(fresh, 8);
+    keep_best(fresh, kRefits);
     refit(fresh);
     pool_.insert(pool_.end(), fresh.begin(), fresh.end());
     keep_best(pool_, kPool);
@@ -219,9 +220,22 @@ class Ransac {
       const auto top = best();
       const double size = top ? std::max(estimate(*top, left()).mean, smallest) : smallest;
       if (missed(size, drawn) > search_.overlook) continue;
+      if (missed(smallest, drawn) <= search_.overlook) return take_any();
       if (top && take(top->shape)) return true;
       if (top) pool_.erase(pool_.begin());  // not as many after all
-      if (missed(smallest, drawn) <= search_.overlook && pool_.empty()) return false;
+    }
+    return false;
+  }
+
+  // Nothing larger is to be expected: the first of the pool that is large enough, or nothing.
+  bool take_any() {
+    while (!pool_.empty()) {
+      context_.check();
+      const Candidate one = pool_.front();
+      pool_.erase(pool_.begin());
+      // A fit to all points gains some, but hardly doubles a count.
+      if (estimate(one, left()).mean < 0.5 * static_cast<double>(search_.min_size)) return false;
+      if (take(one.shape)) return true;
     }
     return false;
   }
