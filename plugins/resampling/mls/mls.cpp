@@ -123,7 +123,7 @@ struct Mls {
         .choice(&Mls::border, "border", "what is done where neighbours lie on one side",
                 {{"plain", Border::plain, "the order is lowered where the noise asks for it"},
                  {"aware", Border::aware,
-                  "the neighbourhood is widened inwards up to twice the radius as far as the "
+                  "the neighbourhood is widened inwards up to 2.8 times as far as the "
                   "surface allows, narrowed where it bends, and points go back along the ray that "
                   "they were seen by; adds the column border"}})
         .deterministic()
