@@ -6,7 +6,9 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <velum/random.hpp>
 
 #include "cgal/distinct.hpp"
 
@@ -15,19 +17,32 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// The priority of a triangle: its radius, and none where an edge is too long.
+/// A number that belongs to the place, the same in every run.
+std::uint64_t hash_of(const Kernel::Point_3& p) {
+  std::uint64_t hash = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    hash = Random(hash ^ std::bit_cast<std::uint64_t>(p[axis])).next();
+  return hash;
+}
+
+/// The priority of a triangle: its radius, and none where an edge is too long. Among triangles of
+/// one size, as a grid has them, CGAL takes the one that lies first in memory; a share of up to a
+/// millionth that belongs to the triangle makes the choice the same in every run.
 struct ShortEdges {
   double max_edge2;
 
   template <class Front, class Cell>
   double operator()(const Front& front, Cell& cell, const int& index) const {
     const auto corner = [&](int i) { return cell->vertex((index + i) & 3)->point(); };
-    if (max_edge2 > 0.0) {
-      for (int i = 1; i < 4; ++i)
-        if (CGAL::squared_distance(corner(i), corner(i % 3 + 1)) > max_edge2)
-          return std::numeric_limits<double>::infinity();
+    std::uint64_t hash = 0;
+    for (int i = 1; i < 4; ++i) {
+      if (max_edge2 > 0.0 && CGAL::squared_distance(corner(i), corner(i % 3 + 1)) > max_edge2)
+        return std::numeric_limits<double>::infinity();
+      hash += hash_of(corner(i));
     }
-    return front.smallest_radius_delaunay_sphere(cell, index);
+    constexpr double kMost = 1e-6;
+    return front.smallest_radius_delaunay_sphere(cell, index) *
+           (1.0 + kMost * Random(hash).uniform());
   }
 };
 
