@@ -37,6 +37,8 @@ struct AdvancingFront {
         .param(&AdvancingFront::max_edge, "max_edge", "longest edge", velum::above(0.0))
         .param(&AdvancingFront::largest_part, "largest_part",
                "keep the largest of the surfaces found, drop the others")
+        // CGAL orders what comes up at the same time by its place in memory.
+        .tolerant()
         .reference(
             "Cohen-Steiner and Da, A greedy Delaunay-based surface reconstruction algorithm, The "
             "Visual Computer 20 (2004)")

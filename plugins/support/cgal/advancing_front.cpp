@@ -27,7 +27,7 @@ std::uint64_t hash_of(const Kernel::Point_3& p) {
 
 /// The priority of a triangle: its radius, and none where an edge is too long. Among triangles of
 /// one size, as a grid has them, CGAL takes the one that lies first in memory; a share of up to a
-/// millionth that belongs to the triangle makes the choice the same in every run.
+/// millionth that belongs to the triangle makes that choice the same in every run.
 struct ShortEdges {
   double max_edge2;
 

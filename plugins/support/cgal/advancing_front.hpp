@@ -16,7 +16,9 @@ struct FrontRules {
 };
 
 /// Triangles of the surface that CGAL's advancing front grows over `points`, oriented alike in each
-/// of its parts, in ascending order. Throws std::exception where CGAL finds itself in disorder.
+/// of its parts, in ascending order. The order in which edges of the front that reach one triangle
+/// at once are served depends on memory: a few triangles can differ from run to run. Throws
+/// std::exception where CGAL finds itself in disorder.
 std::vector<std::array<std::int32_t, 3>> advancing_front(const Eigen::Matrix3Xd& points,
                                                          const FrontRules& rules);
 
