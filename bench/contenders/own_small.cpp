@@ -89,9 +89,7 @@ Contender moved() {
 
 Contender box() {
   return plain_stage("region of interest", &Input::cloud, [](const Input&) {
-    return Stage("filtering.region_of_interest")
-        .set("min", "[0, -2, 1]")
-        .set("max", "[2, 2, 4]");
+    return Stage("filtering.region_of_interest").set("min", "[0, -2, 1]").set("max", "[2, 2, 4]");
   });
 }
 
