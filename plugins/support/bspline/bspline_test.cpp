@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "bspline/evaluate.hpp"
+#include "bspline/fit.hpp"
+#include "bspline/refine.hpp"
 #include "bspline/tessellate.hpp"
 #include "mesh/topology.hpp"
 
@@ -263,4 +265,73 @@ TEST_CASE("a loop is simplified within the tolerance, and corners stay") {
     nearest = std::min(nearest, (less.col(i) - loop.col(17)).norm());
   CHECK(nearest == 0.0);
   CHECK(simplified(s, loop, 100.0).cols() >= 3);
+}
+
+TEST_CASE("a knot more leaves the surface as it is") {
+  const Surface before = wavy();
+  Surface after = before;
+  insert_knot(after, Along::u, 0.2);
+  insert_knot(after, Along::v, 0.5);
+  insert_knot(after, Along::v, 1.7);
+  CHECK(after.control.cols() == 7 * 7);
+  const Patch a(before);
+  const Patch b(after);
+  for (double u = 0.0; u <= 1.0; u += 0.1)
+    for (double v = -1.0; v <= 2.0; v += 0.3) CHECK((a.at({u, v}) - b.at({u, v})).norm() < 1e-12);
+}
+
+TEST_CASE("roughness of order 2 spares planes, that of order 3 parabolas") {
+  Surface s = plate();
+  s.degree_u = s.degree_v = 3;
+  s.knots_u = uniform_knots(3, 5);
+  s.knots_v = uniform_knots(3, 4);
+  const VectorXd u = greville(s.knots_u, 3);
+  const VectorXd v = greville(s.knots_v, 3);
+  Matrix2Xd places(2, 400);
+  Eigen::MatrixXd heights(400, 2);
+  for (Index i = 0; i < 400; ++i) {
+    places.col(i) << static_cast<double>(i % 20) / 19.0, static_cast<double>(i / 20) / 19.0;
+    heights(i, 0) = 2.0 * places(0, i) - places(1, i);
+    heights(i, 1) = places(0, i) * places(0, i) + 0.5 * places(0, i) * places(1, i);
+  }
+  const Smoothed fit = smooth_fit(design(s, places), heights, VectorXd::Ones(400),
+                                  roughness(s, 1.0, 2.0, 3), Eigen::MatrixXd(), 1.0);
+  CHECK(fit.squares < 1e-12);
+  for (const int order : {2, 3}) {
+    const Sparse rough = roughness(s, 1.0, 2.0, order);
+    const Eigen::MatrixXd energy = fit.coefficients.transpose() * (rough * fit.coefficients);
+    CHECK(std::abs(energy(0, 0)) < 1e-8);
+    // Of x² + xy/2 over 1 × 2: second derivatives 2 and, twice, 1/4.
+    CHECK(energy(1, 1) == Approx(order == 2 ? 2.0 * (4.0 + 2.0 * 0.0625) : 0.0).margin(1e-7));
+  }
+}
+
+TEST_CASE("cross-validation finds a smooth surface in noise, and smoothness makes it stiffer") {
+  Surface s = plate();
+  s.degree_u = s.degree_v = 3;
+  s.knots_u = uniform_knots(3, 8);
+  s.knots_v = uniform_knots(3, 8);
+  velum::Random random(3);
+  Matrix2Xd places(2, 2000);
+  Eigen::MatrixXd heights(2000, 1);
+  VectorXd truth(2000);
+  for (Index i = 0; i < 2000; ++i) {
+    places.col(i) << random.uniform(), random.uniform();
+    truth[i] = std::sin(3.0 * places(0, i)) * places(1, i);
+    heights(i, 0) = truth[i] + 0.1 * random.gaussian();
+  }
+  const Sparse rows = design(s, places);
+  const Sparse rough = roughness(s, 1.0, 1.0, 3);
+  const auto fit = [&](double smoothness) {
+    return smooth_fit(rows, heights, VectorXd::Ones(2000), rough, Eigen::MatrixXd(), smoothness);
+  };
+  const Smoothed usual = fit(1.0);
+  const double error = std::sqrt((rows * usual.coefficients.col(0) - truth).squaredNorm() / 2000);
+  CHECK(error < 0.02);
+  CHECK(usual.freedom < 60.0);
+  CHECK(std::sqrt(usual.squares / 2000) == Approx(0.1).epsilon(0.05));
+  CHECK(fit(1e4).freedom < usual.freedom);
+  CHECK_THROWS_AS(smooth_fit(design(s, places.leftCols(2)), heights.topRows(2), VectorXd::Zero(2),
+                             rough, Eigen::MatrixXd(), 1.0),
+                  velum::Error);
 }

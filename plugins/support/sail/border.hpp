@@ -24,6 +24,9 @@ struct EdgePoints {
 /// Can edge_of_scan be asked? It needs the columns beam and line, and sensors.
 [[nodiscard]] bool is_scan(const Mesh& mesh);
 
+/// Place along the outline of the vertex nearest to p, moved by the offset along the outline there.
+[[nodiscard]] double place_on(const Outline& outline, const Eigen::Vector3d& p);
+
 /// The edge that a scan missed. On average the last return of a scan line lies half a beam step
 /// inside the cloth's edge, and the last line half a tilt step: each last return next to the
 /// outline, along its line or across lines, is moved outward on the local tangent plane by half the

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <unordered_map>
 
 #include "sail/border.hpp"
+#include "sail/lattice.hpp"
 
 namespace velum::sail {
 namespace {
@@ -14,44 +14,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-struct Cell {
-  std::size_t sensor;
-  std::int32_t line;
-  std::int32_t beam;
-};
-
-// The returns of all scanners by line and beam.
-class Lattice {
- public:
-  explicit Lattice(const Cloud& cloud)
-      : beam_(cloud.column(column::kBeam).vector<std::int32_t>()),
-        line_(cloud.column(column::kLine).vector<std::int32_t>()) {
-    for (Index i = 0; i < cloud.size(); ++i) {
-      sensor_.push_back(cloud.sensor_of(i).value_or(0));
-      by_cell_.emplace(key(cell(static_cast<std::int32_t>(i))), static_cast<std::int32_t>(i));
-    }
-  }
-  [[nodiscard]] Cell cell(std::int32_t vertex) const {
-    return {sensor_[static_cast<std::size_t>(vertex)], line_[vertex], beam_[vertex]};
-  }
-  // The return `steps` cells from `cell`, lines or beams on; -1: none.
-  [[nodiscard]] std::int32_t find(const Cell& cell, bool lines, int steps) const {
-    const Cell other{cell.sensor, cell.line + (lines ? steps : 0), cell.beam + (lines ? 0 : steps)};
-    const auto found = by_cell_.find(key(other));
-    return found == by_cell_.end() ? -1 : found->second;
-  }
-
- private:
-  static std::uint64_t key(const Cell& cell) {
-    return (static_cast<std::uint64_t>(cell.sensor) << 56U) ^
-           (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.line) & 0xfffffffU) << 28U) ^
-           (static_cast<std::uint32_t>(cell.beam) & 0xfffffffU);
-  }
-  Eigen::Map<const Eigen::VectorXi> beam_;
-  Eigen::Map<const Eigen::VectorXi> line_;
-  std::vector<std::size_t> sensor_;
-  std::unordered_map<std::uint64_t, std::int32_t> by_cell_;
-};
+std::uint64_t key(const Cell& cell) {
+  return (static_cast<std::uint64_t>(cell.sensor) << 56U) ^
+         (static_cast<std::uint64_t>(static_cast<std::uint32_t>(cell.line) & 0xfffffffU) << 28U) ^
+         (static_cast<std::uint32_t>(cell.beam) & 0xfffffffU);
+}
 
 // Vertices of the outline and those that share an edge with one of them.
 std::set<std::int32_t> near_border(const Sheet& sheet, const Outline& outline) {
@@ -82,20 +49,47 @@ Vector3d normal_at(const Sheet& sheet, std::int32_t vertex, std::vector<Neighbou
   return eigen.eigenvectors().col(0);
 }
 
-// Place along the outline of the vertex nearest to p, moved by the offset along the outline there.
-double place_on(const Outline& outline, const Vector3d& p) {
-  Index nearest = 0;
-  (outline.points.colwise() - p).colwise().squaredNorm().minCoeff(&nearest);
-  const Index n = outline.points.cols();
-  const Vector3d before = outline.points.col((nearest + n - 1) % n);
-  const Vector3d after = outline.points.col((nearest + 1) % n);
-  const double along = (p - outline.points.col(nearest)).dot((after - before).normalized());
-  const double arc = outline.arc[nearest] + along;
-  return arc < 0.0 ? arc + outline.length : arc;
+}  // namespace
+
+bool is_scan(const Cloud& cloud) {
+  const auto whole = [&](const char* name) {
+    return cloud.has(name) && cloud.column(name).scalar() == Scalar::i32 &&
+           cloud.column(name).width() == 1;
+  };
+  return !cloud.sensors().empty() && whole(column::kBeam) && whole(column::kLine);
 }
 
-// The point on the tangent plane at p half a step beyond it, seen from `eye`; `inner` is the return
-// `steps` cells inside. Nothing when the plane is seen at a grazing angle.
+bool is_scan(const Mesh& mesh) {
+  return is_scan(mesh.vertices());
+}
+
+Lattice::Lattice(const Cloud& cloud)
+    : beam_(cloud.column(column::kBeam).vector<std::int32_t>()),
+      line_(cloud.column(column::kLine).vector<std::int32_t>()) {
+  for (Index i = 0; i < cloud.size(); ++i) {
+    sensor_.push_back(cloud.sensor_of(i).value_or(0));
+    by_cell_.emplace(key(cell(static_cast<std::int32_t>(i))), static_cast<std::int32_t>(i));
+  }
+}
+
+std::int32_t Lattice::find(const Cell& cell, bool lines, int steps) const {
+  const Cell other{cell.sensor, cell.line + (lines ? steps : 0), cell.beam + (lines ? 0 : steps)};
+  const auto found = by_cell_.find(key(other));
+  return found == by_cell_.end() ? -1 : found->second;
+}
+
+bool Lattice::ends_at(const Cell& cell, bool lines, int sign) const {
+  for (int k = 1; k <= 3; ++k)
+    if (find(cell, lines, sign * k) >= 0) return false;
+  return true;
+}
+
+Lattice::Inner Lattice::inner(const Cell& cell, bool lines, int sign, int reach) const {
+  int steps = 1;
+  while (steps < reach && find(cell, lines, -sign * steps) < 0) ++steps;
+  return {find(cell, lines, -sign * steps), steps};
+}
+
 std::optional<Vector3d> half_step_on(const Vector3d& eye, const Vector3d& p, const Vector3d& inner,
                                      int steps, const Vector3d& normal) {
   const Vector3d ray = (p - eye).normalized();
@@ -109,15 +103,15 @@ std::optional<Vector3d> half_step_on(const Vector3d& eye, const Vector3d& p, con
   return at;
 }
 
-}  // namespace
-
-bool is_scan(const Mesh& mesh) {
-  const Cloud& cloud = mesh.vertices();
-  const auto whole = [&](const char* name) {
-    return cloud.has(name) && cloud.column(name).scalar() == Scalar::i32 &&
-           cloud.column(name).width() == 1;
-  };
-  return !cloud.sensors().empty() && whole(column::kBeam) && whole(column::kLine);
+double place_on(const Outline& outline, const Vector3d& p) {
+  Index nearest = 0;
+  (outline.points.colwise() - p).colwise().squaredNorm().minCoeff(&nearest);
+  const Index n = outline.points.cols();
+  const Vector3d before = outline.points.col((nearest + n - 1) % n);
+  const Vector3d after = outline.points.col((nearest + 1) % n);
+  const double along = (p - outline.points.col(nearest)).dot((after - before).normalized());
+  const double arc = outline.arc[nearest] + along;
+  return arc < 0.0 ? arc + outline.length : arc;
 }
 
 EdgePoints edge_of_scan(const Sheet& sheet, const Outline& outline) {
@@ -136,13 +130,10 @@ EdgePoints edge_of_scan(const Sheet& sheet, const Outline& outline) {
     std::optional<Vector3d> normal;
     for (const bool lines : {false, true})
       for (const int sign : {-1, 1}) {
-        // Three cells without a return end the cloth; a single one may be a shroud's shadow.
-        bool last = true;
-        for (int k = 1; k <= 3; ++k) last = last && lattice.find(cell, lines, sign * k) < 0;
-        int steps = 1;
-        while (steps < 3 && lattice.find(cell, lines, -sign * steps) < 0) ++steps;
-        const std::int32_t inner = lattice.find(cell, lines, -sign * steps);
-        if (!last || inner < 0) continue;
+        const Lattice::Inner inside = lattice.inner(cell, lines, sign, 3);
+        const std::int32_t inner = inside.vertex;
+        const int steps = inside.steps;
+        if (inner < 0 || !lattice.ends_at(cell, lines, sign)) continue;
         if (!normal) normal = normal_at(sheet, vertex, around);
         const auto at = half_step_on(eyes[cell.sensor], p, sheet.points.col(inner), steps, *normal);
         if (!at) continue;
