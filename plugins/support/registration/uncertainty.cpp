@@ -14,7 +14,6 @@
 namespace velum::registration {
 namespace {
 
-constexpr Index kGrain = 4096;
 /// Pairs whose surroundings are looked at where the target has no normals.
 constexpr Index kSampled = 2048;
 constexpr Index kSurroundings = 64;
