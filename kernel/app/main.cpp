@@ -53,7 +53,7 @@ std::string hint_for(const CLI::App& app) {
   for (const std::string& word : app.remaining(true)) {
     if (!word.starts_with("-")) continue;
     const std::string flag = word.substr(0, word.find('='));
-    const std::string hint = graph::did_you_mean(flag, flag_names(command));
+    std::string hint = graph::did_you_mean(flag, flag_names(command));
     if (!hint.empty()) return hint;
   }
   const std::string name = &command == &app ? "" : " " + command.get_name();

@@ -219,6 +219,12 @@ class Catalog : public graph::Catalog {
     add<Svd>("registration.svd");
     add<Delaunay>("meshing.delaunay_projected");
     add<MeshToReference>("analysis.mesh_to_reference");
+    stages_.at("features.normals").check = [](const std::vector<Setting>& settings) {
+      if (std::get<std::int64_t>(settings.at(0).value) != 30 && settings.at(1).is_set())
+        throw Error(Fault::graph, "'neighbours' and 'radius' are both given")
+            .at("radius")
+            .hint("keep one of them");
+    };
   }
   const StageInfo* find(std::string_view id) override {
     const auto found = stages_.find(id);

@@ -193,6 +193,16 @@ TEST_CASE("E0209: a parameter under its old and its new name") {
               "(resampling.voxel_grid) | keep 'size'"});
 }
 
+TEST_CASE("E0211: settings that do not fit together, as the stage itself says") {
+  const std::string normals = kScan + "[node.n]\nuse = \"features.normals\"\nin = \"scan\"\n";
+  CHECK(mistakes(normals + "radius = \"5 mm\"\n").empty());
+  CHECK(mistakes(normals + "neighbours = 9\nradius = \"5 mm\"\n") ==
+        Lines{"E0211 7:1 node 'n' (features.normals): 'neighbours' and 'radius' are both given | "
+              "keep one of them"});
+  // One mistake is enough: what is wrong alone is not tried with the others.
+  CHECK(mistakes(normals + "neighbours = 9\nradius = \"-5 mm\"\n").front().starts_with("E0206"));
+}
+
 TEST_CASE("E0212: limits, and the other keys of a node") {
   CHECK(mistakes(kScan + "limits = { time = \"1 min\", memory = \"2 GB\" }\n") ==
         Lines{"E0212 3:1 limits hold for isolated nodes only | add isolate = true"});

@@ -44,6 +44,15 @@ class FailTest(CommandTest):
         self.assertIn("did you mean 'moved'?", error)
         self.assertTrue((self.folder / "g.out/n.txt").exists())
 
+    def test_an_ending_without_a_format(self):
+        self.needs("io.write_mesh")
+        self.write("g.toml", CHAIN + '[node.w]\nuse = "io.write_cloud"\nin = "moved"\nfile = "a.plx"\n')
+        for command in ("run", "check"):
+            _, error = self.velum(command, "g.toml", status=2)
+            self.assertRegex(error, r"error\[E0211\] g.toml:\d+:1 ")
+            self.assertIn("no format is known for 'a.plx', expected .pcd, .ply", error)
+        self.assertFalse((self.folder / "g.out").exists())
+
     def test_bad_data(self):
         self.write("points.txt", "many\n")
         self.write("g.toml", '[node.scan]\nuse = "test.read"\nfile = "points.txt"\n')

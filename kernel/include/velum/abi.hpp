@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
-#include "velum/values.hpp"
+#include "velum/about.hpp"
 
 namespace velum {
 
@@ -37,6 +36,7 @@ struct Fingerprint {
   std::uint32_t size_of_transform = sizeof(Transform);
   std::uint32_t size_of_clusters = sizeof(Clusters);
   std::uint32_t size_of_table = sizeof(Table);
+  std::uint32_t size_of_stage_info = sizeof(StageInfo);
 };
 
 /// The content of a plugin's ELF section `.velum`, read before the file is opened.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 #include <type_traits>
+#include <typeindex>
 #include <utility>
 
 #include "velum/context.hpp"
@@ -49,6 +50,8 @@ struct StageInfo {
   bool keeps_columns = true;
   std::vector<std::string> references;
   std::string licence = "MIT";
+  /// Throws Error when settings that are right one by one do not fit together; may be empty.
+  std::function<void(const std::vector<Setting>&)> check;
 };
 
 namespace detail {
@@ -75,18 +78,17 @@ template <>
 struct Kind<std::string> : PlainKind<std::string, ParameterType::text, std::string> {};
 template <>
 struct Kind<Length> : PlainKind<Length, ParameterType::length, Length> {};
-template <>
-struct Kind<Angle> {
-  static constexpr ParameterType type = ParameterType::angle;
-  static Angle from(const Setting& setting) { return {std::get<double>(setting.value)}; }
-  static Setting to(const Angle& angle) { return {angle.radians}; }
+// A type of one field that is stored as a number or text.
+template <class M, ParameterType Type, auto Field, class Stored>
+struct FieldKind {
+  static constexpr ParameterType type = Type;
+  static M from(const Setting& setting) { return {std::get<Stored>(setting.value)}; }
+  static Setting to(const M& member) { return {Stored(member.*Field)}; }
 };
 template <>
-struct Kind<Duration> {
-  static constexpr ParameterType type = ParameterType::duration;
-  static Duration from(const Setting& setting) { return {std::get<double>(setting.value)}; }
-  static Setting to(const Duration& duration) { return {duration.seconds}; }
-};
+struct Kind<Angle> : FieldKind<Angle, ParameterType::angle, &Angle::radians, double> {};
+template <>
+struct Kind<Duration> : FieldKind<Duration, ParameterType::duration, &Duration::seconds, double> {};
 template <>
 struct Kind<Eigen::Vector3d> {
   static constexpr ParameterType type = ParameterType::vector;
@@ -111,22 +113,17 @@ struct Kind<LengthUnit> {
   }
   static Setting to(const LengthUnit&) { return {}; }  // unset: the graph's units
 };
-template <>
-struct Kind<InputFile> {
-  static constexpr ParameterType type = ParameterType::input_file;
-  static InputFile from(const Setting& setting) { return {std::get<std::string>(setting.value)}; }
-  static Setting to(const InputFile& file) {
+// A file whose path is empty is not set.
+template <class File, ParameterType Type>
+struct FileKind : FieldKind<File, Type, &File::path, std::string> {
+  static Setting to(const File& file) {
     return file.path.empty() ? Setting{} : Setting{file.path.string()};
   }
 };
 template <>
-struct Kind<OutputFile> {
-  static constexpr ParameterType type = ParameterType::output_file;
-  static OutputFile from(const Setting& setting) { return {std::get<std::string>(setting.value)}; }
-  static Setting to(const OutputFile& file) {
-    return file.path.empty() ? Setting{} : Setting{file.path.string()};
-  }
-};
+struct Kind<InputFile> : FileKind<InputFile, ParameterType::input_file> {};
+template <>
+struct Kind<OutputFile> : FileKind<OutputFile, ParameterType::output_file> {};
 template <class M>
 struct Kind<std::optional<M>> : Kind<M> {
   static std::optional<M> from(const Setting& setting) {
@@ -161,12 +158,11 @@ inline constexpr bool is_vector = false;
 template <class M>
 inline constexpr bool is_vector<std::vector<M>> = true;
 
+VELUM_API Parameter named(std::string name, std::string doc, ParameterType type);
+
 template <class T, class M>
 Parameter make_parameter(M T::*member, std::string name, std::string doc, Range range) {
-  Parameter p;
-  p.name = std::move(name);
-  p.doc = std::move(doc);
-  p.type = Kind<M>::type;
+  Parameter p = named(std::move(name), std::move(doc), Kind<M>::type);
   p.list = is_vector<M>;
   p.optional = is_optional<M> || std::is_same_v<M, LengthUnit>;
   p.range = range;
@@ -180,46 +176,27 @@ Parameter make_parameter(M T::*member, std::string name, std::string doc, Range 
   return p;
 }
 
-// How an argument of a stage's call appears as an input.
+// How an argument or a result of a stage's call appears as a port.
 template <class A>
-struct Argument {
-  static void describe(Port& port) { port.types = {kValueType<A>}; }
-};
-template <class A>
-struct Argument<std::optional<A>> {
-  static void describe(Port& port) {
-    Argument<A>::describe(port);
-    port.required = false;
+Port port_of() {
+  Port port;
+  if constexpr (is_optional<A> || is_vector<A>) {
+    port = port_of<typename A::value_type>();
+    (is_optional<A> ? port.required : port.many) = is_vector<A>;
+  } else if constexpr (requires { std::variant_size<A>::value; }) {
+    [&]<class... V>(std::type_identity<std::variant<V...>>) {
+      port.types = {kValueType<V>...};
+    }(std::type_identity<A>{});
+  } else {
+    port.types = {kValueType<A>};
   }
-};
-template <class A>
-struct Argument<std::vector<A>> {
-  static void describe(Port& port) {
-    Argument<A>::describe(port);
-    port.many = true;
-  }
-};
+  return port;
+}
+// The ports of several values in a std::tuple.
 template <class... A>
-struct Argument<std::variant<A...>> {
-  static void describe(Port& port) { port.types = {kValueType<A>...}; }
-};
-
-template <class R>
-struct Result {
-  static std::vector<Port> ports() {
-    Port port;
-    Argument<R>::describe(port);
-    return {port};
-  }
-};
-template <>
-struct Result<void> {
-  static std::vector<Port> ports() { return {}; }
-};
-template <class... R>
-struct Result<std::tuple<R...>> {
-  static std::vector<Port> ports() { return {Result<R>::ports().front()...}; }
-};
+std::vector<Port> ports_of(std::type_identity<std::tuple<A...>>) {
+  return {port_of<A>()...};
+}
 
 template <class Call>
 struct Signature;
@@ -232,14 +209,19 @@ struct Signature<R (T::*)(A...) const> {
   static_assert(std::is_same_v<std::tuple_element_t<kInputs, std::tuple<A...>>, Context&>,
                 "the last argument of a stage's call is velum::Context&");
 
-  static std::vector<Port> inputs() { return inputs(std::make_index_sequence<kInputs>{}); }
-
- private:
-  template <std::size_t... I>
-  static std::vector<Port> inputs(std::index_sequence<I...>) {
-    std::vector<Port> ports(kInputs);
-    (Argument<std::tuple_element_t<I, Arguments>>::describe(ports[I]), ...);
-    return ports;
+  static std::vector<Port> inputs() {
+    return []<std::size_t... I>(std::index_sequence<I...>) {
+      return std::vector<Port>{port_of<std::tuple_element_t<I, Arguments>>()...};
+    }
+    (std::make_index_sequence<kInputs>{});
+  }
+  static std::vector<Port> outputs() {
+    if constexpr (std::is_void_v<R>)
+      return {};
+    else if constexpr (requires { std::tuple_size<R>::value; })
+      return ports_of(std::type_identity<R>{});
+    else
+      return {port_of<R>()};
   }
 };
 
@@ -265,62 +247,29 @@ struct Choice {
   std::string doc;
 };
 
-/// Describes the stage T. `in` and `out` name the arguments and results of its call, in order;
-/// `required`, `advanced`, `was`, `of` and `unit` speak of the parameter before them. Ranges are in
-/// SI units. Inputs come from the call's signature: `const V&` is required, `std::optional<V>`
-/// optional, `std::vector<V>` takes many, `std::variant<V, W>` either type. Results: a value,
-/// `std::tuple` of values, `std::optional` of what may be missing, or void.
-template <class T>
-class About {
-  using Call = detail::Signature<decltype(&T::operator())>;
-
+/// What About<T> says without knowing T. `in` and `out` name the arguments and results of the
+/// stage's call, in order; `required`, `advanced`, `was`, `of` and `unit` speak of the parameter
+/// before them. Ranges are in SI units. All throw Error (Fault::plugin) on what makes no sense.
+class VELUM_API AboutStage {
  public:
-  explicit About(std::string summary) {
-    info_.summary = std::move(summary);
-    info_.inputs = Call::inputs();
-    info_.outputs = detail::Result<typename Call::Return>::ports();
-    info_.cacheable = !info_.outputs.empty();
-  }
-
-  About& in(std::string name, std::string doc = "") {
-    return name_port(info_.inputs, named_inputs_, std::move(name), std::move(doc));
-  }
-  About& out(std::string name, std::string doc = "") {
-    return name_port(info_.outputs, named_outputs_, std::move(name), std::move(doc));
-  }
-  About& needs(std::string_view input, std::string column) {
-    port(info_.inputs, input).columns.push_back({std::move(column), {}, {}});
-    return *this;
-  }
-  About& needs_when(std::string parameter, std::string value, std::string_view input,
-                    std::string column) {
-    port(info_.inputs, input)
-        .columns.push_back({std::move(column), std::move(parameter), std::move(value)});
-    return *this;
-  }
-  About& adds(std::string_view output, std::string column) {
-    port(info_.outputs, output).columns.push_back({std::move(column), {}, {}});
-    return *this;
-  }
+  AboutStage& in(std::string name, std::string doc = "");
+  AboutStage& out(std::string name, std::string doc = "");
+  AboutStage& needs(std::string_view input, std::string column);
+  AboutStage& needs_when(std::string parameter, std::string value, std::string_view input,
+                         std::string column);
+  AboutStage& adds(std::string_view output, std::string column);
   /// Output columns are only those that it adds.
-  About& drops_columns() {
-    info_.keeps_columns = false;
-    return *this;
-  }
+  AboutStage& drops_columns();
 
-  template <class M>
-  About& param(M T::*member, std::string name, std::string doc, Range range = anything()) {
-    info_.parameters.push_back(
-        detail::make_parameter(member, std::move(name), std::move(doc), range));
-    return *this;
+  template <class T, class M>
+  AboutStage& param(M T::*member, std::string name, std::string doc, Range range = anything()) {
+    return add(typeid(T), detail::make_parameter(member, std::move(name), std::move(doc), range));
   }
   /// An enumeration: every value with its name and what it means.
-  template <class E>
-  About& choice(E T::*member, std::string name, std::string doc, std::vector<Choice<E>> choices) {
-    Parameter p;
-    p.name = std::move(name);
-    p.doc = std::move(doc);
-    p.type = ParameterType::choice;
+  template <class T, class E>
+  AboutStage& choice(E T::*member, std::string name, std::string doc,
+                     std::vector<Choice<std::type_identity_t<E>>> choices) {
+    Parameter p = detail::named(std::move(name), std::move(doc), ParameterType::choice);
     for (const Choice<E>& c : choices) {
       p.choices.push_back({c.name, c.doc});
       if (T{}.*member == c.value) p.initial = {c.name};
@@ -330,16 +279,12 @@ class About {
         if (c.name == std::get<std::string>(setting.value))
           static_cast<T*>(object)->*member = c.value;
     };
-    info_.parameters.push_back(std::move(p));
-    return *this;
+    return add(typeid(T), std::move(p));
   }
   /// An array of small tables, such as `pairs = [{ source = [..], target = [..] }]`.
-  template <class R>
-  About& rows(std::vector<R> T::*member, std::string name, std::string doc, Row<R> row) {
-    Parameter p;
-    p.name = std::move(name);
-    p.doc = std::move(doc);
-    p.type = ParameterType::rows;
+  template <class T, class R>
+  AboutStage& rows(std::vector<R> T::*member, std::string name, std::string doc, Row<R> row) {
+    Parameter p = detail::named(std::move(name), std::move(doc), ParameterType::rows);
     p.fields = std::move(row.fields);
     p.initial = {Setting::List{}};
     p.set = [member, fields = p.fields](void* object, const Setting& setting) {
@@ -351,91 +296,59 @@ class About {
       }
       static_cast<T*>(object)->*member = std::move(made);
     };
-    info_.parameters.push_back(std::move(p));
-    return *this;
+    return add(typeid(T), std::move(p));
   }
-  About& required() {
-    return last([](Parameter& p) { p.required = true; });
-  }
-  About& advanced() {
-    return last([](Parameter& p) { p.advanced = true; });
-  }
-  About& was(std::string name) {
-    return last([&](Parameter& p) { p.old_names.push_back(std::move(name)); });
-  }
+  AboutStage& required();
+  AboutStage& advanced();
+  AboutStage& was(std::string old_name);
   /// Relative lengths count the spacing and diagonal of this input.
-  About& of(std::string input) {
-    return last([&](Parameter& p) { p.relative_to = std::move(input); });
-  }
-  About& unit(std::string unit) {
-    return last([&](Parameter& p) { p.unit = std::move(unit); });
-  }
+  AboutStage& of(std::string input);
+  AboutStage& unit(std::string unit);
 
   /// Same inputs and parameters, same bytes. The default.
-  About& deterministic() { return determinism(Determinism::bitwise); }
+  AboutStage& deterministic();
   /// Same inputs, parameters and seed, same bytes.
-  About& seeded() { return determinism(Determinism::seeded); }
+  AboutStage& seeded();
   /// The same up to rounding.
-  About& tolerant() { return determinism(Determinism::tolerance); }
+  AboutStage& tolerant();
   /// No promise; never taken from the cache.
-  About& nondeterministic() {
-    info_.cacheable = false;
-    return determinism(Determinism::none);
-  }
+  AboutStage& nondeterministic();
   /// Never taken from the cache (devices).
-  About& uncached() {
-    info_.cacheable = false;
-    return *this;
-  }
+  AboutStage& uncached();
   /// A library in it may crash: runs in a process of its own unless the graph says otherwise.
-  About& isolated() {
-    info_.isolated = true;
-    return *this;
-  }
-  About& version(std::string version) {
-    info_.version = std::move(version);
-    return *this;
-  }
+  AboutStage& isolated();
+  AboutStage& version(std::string version);
   /// Where the method comes from: paper, thesis section, equation.
-  About& reference(std::string citation) {
-    info_.references.push_back(std::move(citation));
-    return *this;
-  }
+  AboutStage& reference(std::string citation);
   /// Licence of the stage with what it links (SPDX expression).
-  About& licence(std::string licence) {
-    info_.licence = std::move(licence);
-    return *this;
-  }
+  AboutStage& licence(std::string licence);
 
   [[nodiscard]] const StageInfo& info() const { return info_; }
 
- private:
-  About& name_port(std::vector<Port>& ports, std::size_t& named, std::string name,
-                   std::string doc) {
-    if (named == ports.size()) throw Error(Fault::plugin, "more ports named than the call has");
-    ports[named].name = std::move(name);
-    ports[named++].doc = std::move(doc);
-    return *this;
-  }
-  static Port& port(std::vector<Port>& ports, std::string_view name) {
-    for (Port& p : ports)
-      if (p.name == name) return p;
-    throw Error(Fault::plugin, "no port '" + std::string(name) + "'");
-  }
-  template <class Change>
-  About& last(const Change& change) {
-    if (info_.parameters.empty()) throw Error(Fault::plugin, "no parameter to speak of");
-    change(info_.parameters.back());
-    return *this;
-  }
-  About& determinism(Determinism determinism) {
-    info_.determinism = determinism;
-    return *this;
-  }
+ protected:
+  AboutStage(const std::type_info& stage, std::string summary, std::vector<Port> inputs,
+             std::vector<Port> outputs);
 
+ private:
+  AboutStage& add(const std::type_info& owner, Parameter parameter);
+  Parameter& last();
+
+  std::type_index stage_;
   StageInfo info_;
   std::size_t named_inputs_ = 0;
   std::size_t named_outputs_ = 0;
+};
+
+/// Describes the stage T. Inputs come from the call's signature: `const V&` is required,
+/// `std::optional<V>` optional, `std::vector<V>` takes many, `std::variant<V, W>` either type.
+/// Results: a value, `std::tuple` of values, `std::optional` of what may be missing, or void.
+template <class T>
+class About : public AboutStage {
+  using Call = detail::Signature<decltype(&T::operator())>;
+
+ public:
+  explicit About(std::string summary)
+      : AboutStage(typeid(T), std::move(summary), Call::inputs(), Call::outputs()) {}
 };
 
 }  // namespace velum

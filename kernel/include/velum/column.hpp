@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "velum/error.hpp"
@@ -18,18 +19,8 @@ namespace velum {
 enum class Scalar : std::uint8_t { u8, i32, f32, f64 };
 
 template <class T>
-inline constexpr Scalar kScalarOf = [] {
-  if constexpr (std::is_same_v<T, std::uint8_t>)
-    return Scalar::u8;
-  else if constexpr (std::is_same_v<T, std::int32_t>)
-    return Scalar::i32;
-  else if constexpr (std::is_same_v<T, float>)
-    return Scalar::f32;
-  else {
-    static_assert(std::is_same_v<T, double>, "columns hold u8, i32, f32 or f64");
-    return Scalar::f64;
-  }
-}();
+inline constexpr Scalar kScalarOf = static_cast<Scalar>(detail::position<T>(
+    static_cast<std::tuple<std::uint8_t, std::int32_t, float, double>*>(nullptr)));
 
 VELUM_API std::size_t size_of(Scalar scalar);
 VELUM_API std::string_view name_of(Scalar scalar);

@@ -25,8 +25,6 @@ enum class Fault : int {
 class VELUM_API Error : public std::runtime_error {
  public:
   Error(Fault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}
-  Error(const Error&) = default;
-  Error& operator=(const Error&) = default;
   ~Error() override;
 
   Error&& at(std::string where) && {
@@ -51,9 +49,6 @@ class VELUM_API Error : public std::runtime_error {
 /// Thrown by Context::check() when the run was interrupted. Stages let it pass.
 class VELUM_API Cancelled : public std::exception {
  public:
-  Cancelled() = default;
-  Cancelled(const Cancelled&) = default;
-  Cancelled& operator=(const Cancelled&) = default;
   ~Cancelled() override;
   [[nodiscard]] const char* what() const noexcept override;
 };

@@ -26,6 +26,7 @@ struct Length {
   constexpr Length(double metres) : value(metres) {}  // NOLINT(google-explicit-constructor)
   constexpr Length(double factor, Of relative_to) : value(factor), of(relative_to) {}
   constexpr operator double() const { return value; }  // NOLINT(google-explicit-constructor)
+  bool operator==(const Length&) const = default;
 };
 /// "2 spacing" as a default: `Length size = velum::spacings(2);`
 constexpr Length spacings(double factor) {
@@ -76,10 +77,7 @@ struct Setting {
   [[nodiscard]] bool is_set() const { return value.index() != 0; }
   bool operator==(const Setting& other) const;
 };
-inline bool operator==(const Length& a, const Length& b) {
-  return a.value == b.value && a.of == b.of;
-}
-inline bool Setting::operator==(const Setting& other) const {
+inline bool Setting::operator==(const Setting& other) const {  // defaulted, it stops clang 14
   return value == other.value;
 }
 

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstring>
-#include <memory>
-
 #include "velum/abi.hpp"
-#include "velum/about.hpp"
 
 /// All that a plugin needs: define a struct with `about()` and a call operator, then VELUM_STAGE.
+/// A `void check() const` is called before any graph runs: it throws Error (Fault::graph) when
+/// parameters do not fit together, `.at()` the parameter's name. Lengths may still be relative.
 
 namespace velum {
 
@@ -33,48 +31,35 @@ class VELUM_API StageType {
 
 namespace detail {
 
+// What is wired to an input as the argument of a stage's call.
 template <class A>
-struct Unwrap {
-  static const A& from(const Wired& wired) { return std::get<A>(wired.front()); }
-};
-template <class A>
-struct Unwrap<std::optional<A>> {
-  static std::optional<A> from(const Wired& wired) {
-    if (wired.empty()) return std::nullopt;
-    return Unwrap<A>::from(wired);
-  }
-};
-template <class A>
-struct Unwrap<std::vector<A>> {
-  static std::vector<A> from(const Wired& wired) {
-    std::vector<A> values;
-    for (const Value& value : wired) values.push_back(Unwrap<A>::from({value}));
+decltype(auto) unwrap(const Wired& wired) {
+  if constexpr (is_optional<A>) {
+    return wired.empty() ? A() : A(unwrap<typename A::value_type>(wired));
+  } else if constexpr (is_vector<A>) {
+    A values;
+    for (const Value& value : wired) values.push_back(unwrap<typename A::value_type>(Wired{value}));
     return values;
-  }
-};
-template <class... A>
-struct Unwrap<std::variant<A...>> {
-  static std::variant<A...> from(const Wired& wired) {
+  } else if constexpr (requires { std::variant_size<A>::value; }) {
     return std::visit(
-        [](const auto& value) -> std::variant<A...> {
-          using V = std::remove_cvref_t<decltype(value)>;
-          if constexpr ((std::is_same_v<V, A> || ...))
+        [](const auto& value) -> A {
+          if constexpr (std::is_constructible_v<A, decltype(value)>)
             return value;
           else
             throw Error(Fault::graph, "a value of a type that the input does not take");
         },
         wired.front());
+  } else {
+    return std::get<A>(wired.front());  // a reference
   }
-};
+}
 
 template <class V>
 std::optional<Value> wrap(V&& value) {
-  return Value(std::forward<V>(value));
-}
-template <class V>
-std::optional<Value> wrap(std::optional<V>&& value) {
-  if (!value) return std::nullopt;
-  return Value(std::move(*value));
+  if constexpr (is_optional<V>)
+    return value ? std::optional<Value>(*std::move(value)) : std::nullopt;
+  else
+    return Value(std::move(value));
 }
 
 template <class T>
@@ -82,22 +67,29 @@ class StageAdapter final : public StageType {
   using Call = Signature<decltype(&T::operator())>;
 
  public:
-  explicit StageAdapter(const char* id) : info_(T::about().info()) { info_.id = id; }
+  explicit StageAdapter(const char* id) : info_(T::about().info()) {
+    info_.id = id;
+    if constexpr (requires(const T& stage) { stage.check(); })
+      info_.check = [this](const std::vector<Setting>& settings) { made(settings).check(); };
+  }
   [[nodiscard]] const StageInfo& info() const override { return info_; }
   [[nodiscard]] Results run(const std::vector<Setting>& settings, const std::vector<Wired>& inputs,
                             Context& context) const override {
-    T stage{};
-    for (std::size_t i = 0; i < settings.size(); ++i)
-      info_.parameters.at(i).set(&stage, settings[i]);
-    return call(stage, inputs, context, std::make_index_sequence<Call::kInputs>{});
+    return call(made(settings), inputs, context, std::make_index_sequence<Call::kInputs>{});
   }
 
  private:
+  [[nodiscard]] T made(const std::vector<Setting>& settings) const {
+    T stage{};
+    for (std::size_t i = 0; i < settings.size(); ++i)
+      info_.parameters.at(i).set(&stage, settings[i]);
+    return stage;
+  }
   template <std::size_t... I>
   static Results call(const T& stage, [[maybe_unused]] const std::vector<Wired>& inputs,
                       Context& context, std::index_sequence<I...>) {
     const auto invoke = [&]() -> decltype(auto) {
-      return stage(Unwrap<std::tuple_element_t<I, typename Call::Arguments>>::from(inputs.at(I))...,
+      return stage(unwrap<std::tuple_element_t<I, typename Call::Arguments>>(inputs.at(I))...,
                    context);
     };
     Results results;

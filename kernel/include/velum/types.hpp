@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace velum {
 
@@ -21,5 +21,16 @@ using ConstTriangles = Eigen::Map<const Triangles>;
 using VectorXu8 = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1>;
 /// A rigid motion in double precision.
 using Pose = Eigen::Isometry3d;
+
+namespace detail {
+/// Position of T in a list of types.
+template <class T, template <class...> class List, class... Types>
+consteval int position(const List<Types...>*) {
+  static_assert((std::is_same_v<T, Types> || ...), "not one of the types that Velum knows");
+  int at = 0;
+  (void)((std::is_same_v<T, Types> || (++at, false)) || ...);
+  return at;
+}
+}  // namespace detail
 
 }  // namespace velum

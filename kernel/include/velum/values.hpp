@@ -67,24 +67,8 @@ enum class ValueType : std::uint8_t {
 };
 
 template <class T>
-inline constexpr ValueType kValueType = [] {
-  if constexpr (std::is_same_v<T, Cloud>)
-    return ValueType::cloud;
-  else if constexpr (std::is_same_v<T, Mesh>)
-    return ValueType::mesh;
-  else if constexpr (std::is_same_v<T, Surface>)
-    return ValueType::surface;
-  else if constexpr (std::is_same_v<T, Transform>)
-    return ValueType::transform;
-  else if constexpr (std::is_same_v<T, Clusters>)
-    return ValueType::clusters;
-  else if constexpr (std::is_same_v<T, Correspondences>)
-    return ValueType::correspondences;
-  else {
-    static_assert(std::is_same_v<T, Table>, "not a type that flows between nodes");
-    return ValueType::table;
-  }
-}();
+inline constexpr ValueType kValueType =
+    static_cast<ValueType>(detail::position<T>(static_cast<Value*>(nullptr)));
 
 inline ValueType type_of(const Value& value) {
   return static_cast<ValueType>(value.index());

@@ -56,6 +56,12 @@ void read_setting(const Check& check, Checked& checked, const Key& key) {
   checked.node.settings[i] = parse_setting(named, key.value, key.file->units, report);
 }
 
+void read_settings(const Check& check, Checked& checked, const Draft& draft) {
+  for (const Key& key : draft.keys)
+    if (std::ranges::find(node_keys(), key.name) == node_keys().end())
+      read_setting(check, checked, key);
+}
+
 /// What must be given and is not, and what is the file's when it is not given.
 void complete(const Check& check, Checked& checked, const Draft& draft) {
   const auto& parameters = checked.node.info->parameters;
@@ -73,6 +79,26 @@ void complete(const Check& check, Checked& checked, const Draft& draft) {
   }
 }
 
+/// What the stage itself says of settings that are right one by one.
+void check_together(const Check& check, const Checked& checked, const Draft& draft) {
+  const StageInfo& info = *checked.node.info;
+  if (!info.check) return;
+  const auto report = [&](const Error& error) {
+    const std::size_t i = find_parameter(info, error.where());
+    const Key* key = i < checked.given.size() ? checked.given[i] : nullptr;
+    const Reporter reporter = key == nullptr ? check.report(draft) : check.report(*key);
+    reporter.error("E0211", key == nullptr ? draft.where : key->where,
+                   fmt::format("{}: {}", call(checked.node), error.what()), error.hint());
+  };
+  try {
+    info.check(checked.node.settings);
+  } catch (const Error& error) {
+    report(error);
+  } catch (const std::exception& error) {
+    report(Error(Fault::stage, error.what()));
+  }
+}
+
 }  // namespace
 
 void check_settings(Check& check) {
@@ -83,10 +109,10 @@ void check_settings(Check& check) {
     for (const Parameter& parameter : checked.node.info->parameters)
       checked.node.settings.push_back(parameter.initial);
     checked.given.resize(checked.node.settings.size());
-    for (const Key& key : draft.keys)
-      if (std::ranges::find(node_keys(), key.name) == node_keys().end())
-        read_setting(check, checked, key);
+    const std::size_t mistakes = check.diagnostics.size();
+    read_settings(check, checked, draft);
     complete(check, checked, draft);
+    if (check.diagnostics.size() == mistakes) check_together(check, checked, draft);
   }
 }
 

@@ -144,6 +144,7 @@ Call prepare(const StageInfo& info, std::vector<Setting> settings, std::vector<W
   to_one_origin(inputs);
   for (std::size_t i = 0; i < settings.size(); ++i)
     settings[i] = in_metres(info, info.parameters.at(i), settings[i], inputs);
+  if (info.check) info.check(settings);
   return {std::move(settings), std::move(inputs)};
 }
 

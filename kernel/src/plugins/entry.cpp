@@ -54,6 +54,7 @@ constexpr Field kFields[] = {
     {"size_of_transform", &Fingerprint::size_of_transform, number, kRebuild},
     {"size_of_clusters", &Fingerprint::size_of_clusters, number, kRebuild},
     {"size_of_table", &Fingerprint::size_of_table, number, kRebuild},
+    {"size_of_stage_info", &Fingerprint::size_of_stage_info, number, kRebuild},
 };
 static_assert(std::size(kFields) * sizeof(std::uint32_t) == sizeof(Fingerprint),
               "every field of the fingerprint is compared");

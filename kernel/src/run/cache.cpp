@@ -90,7 +90,8 @@ fs::path environment_path(const char* name) {
 
 }  // namespace
 
-Cache::Cache(fs::path folder, std::uint64_t limit) : folder_(fs::absolute(folder)), limit_(limit) {}
+Cache::Cache(const fs::path& folder, std::uint64_t limit)
+    : folder_(fs::absolute(folder)), limit_(limit) {}
 
 fs::path Cache::entry_file(const std::string& key) const {
   return folder_ / "entries" / key.substr(0, 2) / (key + ".json");

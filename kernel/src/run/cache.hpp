@@ -32,7 +32,7 @@ class Cache {
  public:
   static constexpr std::uint64_t kDefaultLimit = std::uint64_t{4} << 30U;
 
-  explicit Cache(std::filesystem::path folder, std::uint64_t limit = kDefaultLimit);
+  explicit Cache(const std::filesystem::path& folder, std::uint64_t limit = kDefaultLimit);
 
   /// Marks the entry as used now.
   [[nodiscard]] std::optional<CacheEntry> find(const std::string& key) const;

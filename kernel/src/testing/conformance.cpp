@@ -21,10 +21,15 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+#if defined(VELUM_SANITIZED)
+constexpr double kSlowness = 10.0;
+#else
+constexpr double kSlowness = 1.0;
+#endif
 /// A stage that is done with a few hundred points takes no longer.
-constexpr double kLongestSeconds = 30.0;
+constexpr double kLongestSeconds = 30.0 * kSlowness;
 /// An interrupted stage leaves within this time.
-constexpr double kLongestCancelSeconds = 2.0;
+constexpr double kLongestCancelSeconds = 2.0 * kSlowness;
 
 /// How one run ended: with results, in order, with an error of the kernel's own type, or cancelled.
 /// Anything else is a fault.

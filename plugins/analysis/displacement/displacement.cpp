@@ -86,11 +86,14 @@ struct Displacement {
         .reference("thesis 3.4: tables 3.30 and 3.31, figures 3.52, 3.54 and 3.56");
   }
 
+  void check() const {
+    if (good_limit.of == bad_limit.of && good_limit > bad_limit)
+      throw velum::Error(velum::Fault::graph, "'good' is greater than 'bad'").at("good");
+  }
+
   std::tuple<velum::Table, Cloud> operator()(const Cloud& cloud, const Cloud& reference,
                                              Context& context) const {
     context.check();
-    if (good_limit > bad_limit)
-      throw velum::Error(velum::Fault::graph, "'good' is greater than 'bad'");
     const std::vector<std::int32_t> source = sources(cloud, reference, context);
     const auto after = cloud.positions();
     const auto before = reference.positions();

@@ -88,9 +88,13 @@ struct SailShape {
             "Science 11 (1996)");
   }
 
+  void check() const {
+    if (heights.empty())
+      throw velum::Error(velum::Fault::graph, "'heights' is empty").at("heights");
+  }
+
   std::tuple<velum::Table, velum::Table> operator()(
       const std::variant<velum::Mesh, velum::Surface>& input, velum::Context& context) const {
-    if (heights.empty()) throw velum::Error(velum::Fault::graph, "'heights' is empty");
     const auto* given = std::get_if<velum::Mesh>(&input);
     const velum::Mesh mesh =
         given != nullptr ? *given : velum::sail::sample(std::get<velum::Surface>(input));

@@ -48,12 +48,16 @@ struct SegmentationScore {
         .reference("thesis 3.3.2.5 and 3.3.3.2: tables 3.24, 3.26 and 3.27");
   }
 
+  void check() const {
+    if (label.empty())
+      throw velum::Error(velum::Fault::graph, "'label' is an empty list: name at least one label")
+          .at("label");
+  }
+
   velum::Table operator()(const std::variant<velum::Clusters, velum::Cloud>& found,
                           const std::optional<velum::Cloud>& reference,
                           velum::Context& context) const {
     context.check();
-    if (label.empty())
-      throw velum::Error(velum::Fault::graph, "'label' is an empty list: name at least one label");
     if (const auto* clusters = std::get_if<velum::Clusters>(&found))
       return of_clusters(*clusters, reference, context);
     return of_cloud(std::get<velum::Cloud>(found), reference, context);

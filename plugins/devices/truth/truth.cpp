@@ -87,10 +87,15 @@ struct Truth {
         .deterministic();
   }
 
-  Known operator()(velum::Context& context) const {
+  void check() const {
     if (object.has_value() == scanner.has_value())
-      throw velum::Error(velum::Fault::graph, "either 'object' or 'scanner' must be given");
-    if (heights.empty()) throw velum::Error(velum::Fault::graph, "'heights' is empty");
+      throw velum::Error(velum::Fault::graph, "either 'object' or 'scanner' must be given")
+          .at("scanner");
+    if (heights.empty())
+      throw velum::Error(velum::Fault::graph, "'heights' is empty").at("heights");
+  }
+
+  Known operator()(velum::Context& context) const {
     const Scene read = velum::scene::read_scene(scene.path);
     velum::Pose motion = velum::Pose::Identity();
     if (frame) motion = read.scanner(*frame).pose.inverse();

@@ -27,6 +27,15 @@ struct SelectCluster {
         .deterministic();
   }
 
+  void check() const {
+    if (which == Which::index && !index)
+      throw velum::Error(velum::Fault::graph, "which = \"index\" needs the parameter 'index'")
+          .at("which");
+    if (which == Which::containing && !point)
+      throw velum::Error(velum::Fault::graph, "which = \"containing\" needs the parameter 'point'")
+          .at("which");
+  }
+
   velum::Cloud operator()(const velum::Clusters& clusters, velum::Context& context) const {
     context.check();
     const auto labels = clusters.label();
@@ -55,8 +64,6 @@ struct SelectCluster {
   }
 
   [[nodiscard]] int by_index(int count) const {
-    if (!index)
-      throw velum::Error(velum::Fault::graph, "which = \"index\" needs the parameter 'index'");
     if (*index >= count)
       throw velum::Error(
           velum::Fault::stage,
@@ -65,8 +72,6 @@ struct SelectCluster {
   }
 
   [[nodiscard]] int containing(const velum::Clusters& clusters) const {
-    if (!point)
-      throw velum::Error(velum::Fault::graph, "which = \"containing\" needs the parameter 'point'");
     const auto positions = clusters.cloud.positions();
     const Eigen::Vector3d place = point->metres - clusters.cloud.origin();
     int nearest = -1;

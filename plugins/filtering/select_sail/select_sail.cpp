@@ -69,11 +69,14 @@ struct SelectSail {
         .reference("thesis 4.2 and 4.3, where the sails' clusters were chosen by hand");
   }
 
+  void check() const {
+    if (!(up.norm() > 1e-9))
+      throw velum::Error(velum::Fault::graph, "up = [0, 0, 0] is no direction").at("up");
+  }
+
   std::tuple<velum::Cloud, velum::Table> operator()(const velum::Clusters& clusters,
                                                     velum::Context& context) const {
     context.check();
-    if (!(up.norm() > 1e-9))
-      throw velum::Error(velum::Fault::graph, "up = [0, 0, 0] is no direction");
     std::vector<Candidate> candidates = measure_all(clusters, context);
     const int sails = number(candidates);
     context.measure("candidates", static_cast<double>(candidates.size()), "");

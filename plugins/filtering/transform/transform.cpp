@@ -39,6 +39,8 @@ struct Transform {
         .deterministic();
   }
 
+  void check() const { static_cast<void>(given()); }
+
   velum::Cloud operator()(const velum::Cloud& cloud,
                           const std::optional<velum::Transform>& transform,
                           velum::Context& context) const {
@@ -61,7 +63,7 @@ struct Transform {
   [[nodiscard]] Pose given() const {
     if (!matrix.empty()) return from_matrix();
     if (axis && !rpy.empty())
-      throw Error(Fault::graph, "the rotation is given twice: by 'axis' and by 'rpy'");
+      throw Error(Fault::graph, "the rotation is given twice: by 'axis' and by 'rpy'").at("rpy");
     Pose pose = Pose::Identity();
     if (axis) pose.linear() = about_axis();
     if (!rpy.empty()) pose.linear() = from_rpy();
@@ -70,13 +72,14 @@ struct Transform {
   }
 
   [[nodiscard]] Eigen::Matrix3d about_axis() const {
-    if (!(axis->norm() > 0.0)) throw Error(Fault::graph, "'axis' has no length");
+    if (!(axis->norm() > 0.0)) throw Error(Fault::graph, "'axis' has no length").at("axis");
     return Eigen::AngleAxisd(angle, axis->normalized()).toRotationMatrix();
   }
 
   [[nodiscard]] Eigen::Matrix3d from_rpy() const {
     if (rpy.size() != 3)
-      throw Error(Fault::graph, fmt::format("'rpy' has {} angles, it needs 3", rpy.size()));
+      throw Error(Fault::graph, fmt::format("'rpy' has {} angles, it needs 3", rpy.size()))
+          .at("rpy");
     return (Eigen::AngleAxisd(rpy[2], Eigen::Vector3d::UnitZ()) *
             Eigen::AngleAxisd(rpy[1], Eigen::Vector3d::UnitY()) *
             Eigen::AngleAxisd(rpy[0], Eigen::Vector3d::UnitX()))
@@ -85,9 +88,11 @@ struct Transform {
 
   [[nodiscard]] Pose from_matrix() const {
     if (has_parts())
-      throw Error(Fault::graph, "the transform is given twice: by 'matrix' and by its parts");
+      throw Error(Fault::graph, "the transform is given twice: by 'matrix' and by its parts")
+          .at("matrix");
     if (matrix.size() != 16)
-      throw Error(Fault::graph, fmt::format("'matrix' has {} numbers, it needs 16", matrix.size()));
+      throw Error(Fault::graph, fmt::format("'matrix' has {} numbers, it needs 16", matrix.size()))
+          .at("matrix");
     Eigen::Matrix4d m;
     for (int i = 0; i < 16; ++i) m(i / 4, i % 4) = matrix[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d rotation = m.topLeftCorner<3, 3>();
@@ -96,7 +101,8 @@ struct Transform {
         m.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
       throw Error(Fault::graph,
                   "'matrix' is not a rigid motion: a rotation in its first three rows "
-                  "and columns, 0 0 0 1 in the last row");
+                  "and columns, 0 0 0 1 in the last row")
+          .at("matrix");
     Pose pose = Pose::Identity();
     pose.linear() = velum::geometry::orthonormal(rotation);
     pose.translation() = m.topRightCorner<3, 1>();

@@ -18,7 +18,7 @@ struct ReadCloud {
   std::vector<std::string> columns;
   Handedness handedness = Handedness::right;
 
-  static velum::About<ReadCloud> about() {
+  static auto about() {
     velum::About<ReadCloud> about(
         "Reads a point cloud: PCD, PLY, LAS, legacy VTK, plain text (xyz, txt, csv, pts), or the "
         "vertices of a mesh");

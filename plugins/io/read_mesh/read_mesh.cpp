@@ -17,7 +17,7 @@ struct ReadMesh {
   velum::LengthUnit units;
   Handedness handedness = Handedness::right;
 
-  static velum::About<ReadMesh> about() {
+  static auto about() {
     velum::About<ReadMesh> about("Reads a triangle mesh: PLY, STL, OBJ, OFF or legacy VTK");
     about.out("mesh", "the file's polygons as triangles, with its vertices' columns")
         .param(&ReadMesh::file, "file", "the file; its content decides what it is")

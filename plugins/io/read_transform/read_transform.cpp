@@ -17,7 +17,7 @@ struct ReadTransform {
   std::optional<std::string> source;
   std::optional<std::string> target;
 
-  static velum::About<ReadTransform> about() {
+  static auto about() {
     velum::About<ReadTransform> about("Reads a rigid motion: 16 numbers as text, or JSON");
     about.out("transform", "from the frame `source` to the frame `target`")
         .param(&ReadTransform::file, "file", "the file")

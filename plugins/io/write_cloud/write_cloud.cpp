@@ -15,7 +15,7 @@ struct WriteCloud {
   velum::LengthUnit units;
   CloudFormat format = CloudFormat::automatic;
 
-  static velum::About<WriteCloud> about() {
+  static auto about() {
     velum::About<WriteCloud> about("Writes a point cloud: PCD, PLY, legacy VTK or plain text");
     about.in("cloud", "what to write, with all its columns")
         .param(&WriteCloud::file, "file", "the file to write")
@@ -35,6 +35,8 @@ struct WriteCloud {
              {"vtk_ascii", CloudFormat::vtk_ascii, "legacy VTK, text"}});
     return about;
   }
+
+  void check() const { velum::formats::chosen(file.path, format); }
 
   void operator()(const Cloud& cloud, Context& context) const {
     velum::formats::write_cloud(file.path, cloud, format, units.metres, context);

@@ -15,7 +15,7 @@ struct WriteMesh {
   velum::LengthUnit units;
   MeshFormat format = MeshFormat::automatic;
 
-  static velum::About<WriteMesh> about() {
+  static auto about() {
     velum::About<WriteMesh> about("Writes a triangle mesh: PLY, STL, OBJ, OFF or legacy VTK");
     about.in("mesh", "what to write")
         .param(&WriteMesh::file, "file", "the file to write")
@@ -33,6 +33,8 @@ struct WriteMesh {
                  {"vtk_ascii", MeshFormat::vtk_ascii, "legacy VTK, text, with all columns"}});
     return about;
   }
+
+  void check() const { velum::formats::chosen(file.path, format); }
 
   void operator()(const Mesh& mesh, Context& context) const {
     velum::formats::write_mesh(file.path, mesh, format, units.metres, context);

@@ -57,6 +57,7 @@ struct WriteSurface {
         .licence("MIT AND GPL-3.0-or-later AND LGPL-2.1-only WITH OCCT-exception-1.0");
   }
 
+  void check() const { static_cast<void>(chosen()); }
   void operator()(const Surface& surface, Context& context) const;
 
  private:
@@ -77,9 +78,9 @@ Format WriteSurface::chosen() const {
   for (const auto& [known, value] : kKnown)
     if (known == extension) return value;
   throw velum::Error(velum::Fault::graph,
-                     "no format is known for the extension '" + extension +
+                     "no format is known for '" + file.path.filename().string() +
                          "', expected .step, .stp, .iges, .igs, .stl, .obj or .ply")
-      .at(file.path.string())
+      .at("file")
       .hint("name the format by format = \"...\"");
 }
 

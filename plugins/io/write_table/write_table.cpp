@@ -14,7 +14,7 @@ struct WriteTable {
   velum::OutputFile file;
   TableFormat format = TableFormat::automatic;
 
-  static velum::About<WriteTable> about() {
+  static auto about() {
     velum::About<WriteTable> about("Writes a table as CSV or JSON");
     about.in("table", "what to write")
         .param(&WriteTable::file, "file", "the file to write")

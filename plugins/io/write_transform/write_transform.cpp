@@ -15,7 +15,7 @@ struct WriteTransform {
   velum::LengthUnit units;
   TransformFormat format = TransformFormat::automatic;
 
-  static velum::About<WriteTransform> about() {
+  static auto about() {
     velum::About<WriteTransform> about(
         "Writes a rigid motion as 4x4 text or JSON, with 17 digits and both frames named");
     about.in("transform", "what to write")

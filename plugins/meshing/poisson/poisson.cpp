@@ -73,6 +73,7 @@ struct Poisson {
             "Graphics 32 (2013)");
   }
 
+  void check() const;
   Mesh operator()(const Cloud& cloud, Context& context) const;
 
  private:
@@ -80,19 +81,21 @@ struct Poisson {
   [[nodiscard]] Draft trimmed(Draft draft, const Cloud& cloud, Context& context) const;
 };
 
-int at_most_depth(const char* name, const std::optional<int>& divide, int depth) {
-  if (divide.value_or(depth) > depth)
-    throw velum::Error(velum::Fault::graph, std::string(name) + " is " + std::to_string(*divide) +
-                                                ", expected at most depth, which is " +
-                                                std::to_string(depth));
-  return divide.value_or(depth);
+void Poisson::check() const {
+  for (const auto& [name, divide] :
+       {std::pair("solver_divide", solver_divide), std::pair("iso_divide", iso_divide)})
+    if (divide.value_or(depth) > depth)
+      throw velum::Error(velum::Fault::graph, std::string(name) + " is " + std::to_string(*divide) +
+                                                  ", expected at most depth, which is " +
+                                                  std::to_string(depth))
+          .at(name);
 }
 
 velum::meshing::PoissonRules Poisson::rules() const {
   velum::meshing::PoissonRules rules;
   rules.depth = depth;
-  rules.solver_divide = at_most_depth("solver_divide", solver_divide, depth);
-  rules.iso_divide = at_most_depth("iso_divide", iso_divide, depth);
+  rules.solver_divide = solver_divide.value_or(depth);
+  rules.iso_divide = iso_divide.value_or(depth);
   rules.scale = scale;
   rules.samples_per_node = samples_per_node;
   rules.point_weight = point_weight;

@@ -50,6 +50,11 @@ struct Svd {
         .deterministic();
   }
 
+  void check() const {
+    if (file && !pairs.empty())
+      throw Error(Fault::graph, "the pairs are given twice: by 'pairs' and by 'file'").at("file");
+  }
+
   std::tuple<velum::Cloud, velum::Transform, velum::Table> operator()(
       const velum::Cloud& source, const std::optional<velum::Cloud>& /*target*/,
       velum::Context& context) const {
@@ -74,8 +79,6 @@ struct Svd {
 
  private:
   [[nodiscard]] std::vector<PickedPair> all_pairs() const {
-    if (file && !pairs.empty())
-      throw Error(Fault::graph, "the pairs are given twice: by 'pairs' and by 'file'");
     return file ? velum::registration::read_pairs(file->path, units.metres) : pairs;
   }
 

@@ -30,14 +30,20 @@ struct CgalJet {
         .licence("GPL-3.0-or-later");
   }
 
+  /// Coefficients of the polynomial.
+  [[nodiscard]] int terms() const { return (degree + 1) * (degree + 2) / 2; }
+
+  void check() const {
+    if (neighbours < terms())
+      throw velum::Error(velum::Fault::graph, "a jet of degree " + std::to_string(degree) +
+                                                  " needs at least " + std::to_string(terms()) +
+                                                  " neighbours, not " + std::to_string(neighbours))
+          .at("neighbours");
+  }
+
   velum::Cloud operator()(const velum::Cloud& cloud, velum::Context& context) const {
     context.check();
-    const int terms = (degree + 1) * (degree + 2) / 2;
-    if (neighbours < terms)
-      throw velum::Error(velum::Fault::graph, "a jet of degree " + std::to_string(degree) +
-                                                  " needs at least " + std::to_string(terms) +
-                                                  " neighbours, not " + std::to_string(neighbours));
-    if (cloud.size() <= terms || !(cloud.diagonal() > 0.0)) {
+    if (cloud.size() <= terms() || !(cloud.diagonal() > 0.0)) {
       context.warn("too few points for a jet: nothing is moved");
       return velum::smoothing::moved(cloud, velum::Points(cloud.positions()), context);
     }

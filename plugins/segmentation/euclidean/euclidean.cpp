@@ -28,11 +28,15 @@ struct Euclidean {
         .reference("thesis 3.3.1: Algorithm 3.3");
   }
 
+  void check() const {
+    if (max_size.value_or(std::numeric_limits<int>::max()) < min_size)
+      throw velum::Error(velum::Fault::graph,
+                         fmt::format("max_size {} is below min_size {}", *max_size, min_size))
+          .at("max_size");
+  }
+
   velum::Clusters operator()(const velum::Cloud& cloud, velum::Context& context) const {
     const velum::Index most = max_size.value_or(std::numeric_limits<int>::max());
-    if (most < min_size)
-      throw velum::Error(velum::Fault::graph,
-                         fmt::format("max_size {} is below min_size {}", most, min_size));
     // A cloud without extent has no spacing that a relative distance could follow.
     const double radius = distance > 0.0 ? distance.value : 1.0;
     const auto parts = velum::shapes::components(cloud.positions(), radius, context);

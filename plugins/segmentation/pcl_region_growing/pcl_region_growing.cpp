@@ -46,11 +46,15 @@ struct PclRegionGrowing {
         .reference("thesis 3.3.3: Algorithm 3.5");
   }
 
+  void check() const {
+    if (max_size.value_or(std::numeric_limits<int>::max()) < min_size)
+      throw velum::Error(velum::Fault::graph,
+                         fmt::format("max_size {} is below min_size {}", *max_size, min_size))
+          .at("max_size");
+  }
+
   velum::Clusters operator()(const velum::Cloud& cloud, velum::Context& context) const {
     const int most = max_size.value_or(std::numeric_limits<int>::max());
-    if (most < min_size)
-      throw velum::Error(velum::Fault::graph,
-                         fmt::format("max_size {} is below min_size {}", most, min_size));
     context.check();
     std::vector<pcl::PointIndices> regions;
     // PCL asks the tree for more neighbours than there are points without looking.
@@ -77,8 +81,8 @@ struct PclRegionGrowing {
     std::vector<pcl::PointIndices> regions;
     velum::with_pcl::quietly("PCL's region growing", [&] {
       Growing growing;
-      growing.setMinClusterSize(min_size);
-      growing.setMaxClusterSize(most);
+      growing.setMinClusterSize(static_cast<pcl::uindex_t>(min_size));
+      growing.setMaxClusterSize(static_cast<pcl::uindex_t>(most));
       growing.setNumberOfNeighbours(
           static_cast<unsigned>(std::min<velum::Index>(neighbours, cloud.size())));
       growing.setSearchMethod(std::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());

@@ -120,6 +120,13 @@ struct RegionGrowing {
             "(2006)");
   }
 
+  void check() const {
+    if (max_size.value_or(std::numeric_limits<int>::max()) < min_size)
+      throw velum::Error(velum::Fault::graph,
+                         fmt::format("max_size {} is below min_size {}", *max_size, min_size))
+          .at("max_size");
+  }
+
   velum::Clusters operator()(const velum::Cloud& cloud, velum::Context& context) const {
     velum::geometry::GrowingOptions options;
     options.neighbours = neighbours;
@@ -127,9 +134,6 @@ struct RegionGrowing {
     options.curvature = curvature;
     options.min_size = min_size;
     if (max_size) options.max_size = *max_size;
-    if (options.max_size < options.min_size)
-      throw velum::Error(velum::Fault::graph, fmt::format("max_size {} is below min_size {}",
-                                                          options.max_size, options.min_size));
     Regions regions = velum::geometry::grow_regions(cloud, options, context);
     report(cloud, regions, context);
     velum::Table kinds = describe_all(cloud, regions, context);

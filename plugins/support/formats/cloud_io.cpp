@@ -15,20 +15,6 @@
 namespace velum::formats {
 namespace {
 
-CloudFormat by_extension(const std::filesystem::path& path) {
-  const std::string extension = lower(path.extension().string());
-  constexpr std::pair<std::string_view, CloudFormat> kFormats[] = {
-      {".pcd", CloudFormat::pcd}, {".ply", CloudFormat::ply}, {".xyz", CloudFormat::xyz},
-      {".txt", CloudFormat::xyz}, {".asc", CloudFormat::xyz}, {".csv", CloudFormat::csv},
-      {".vtk", CloudFormat::vtk}};
-  for (const auto& [known, format] : kFormats)
-    if (known == extension) return format;
-  throw Error(Fault::graph, "no format is known for the extension " + quote(extension) +
-                                ", expected .pcd, .ply, .xyz, .txt, .asc, .csv or .vtk")
-      .at(path.string())
-      .hint("name the format by format = \"...\"");
-}
-
 /// A mesh has no vertices to drop: it is refused when one is not finite.
 Cloud vertices_of(const Mesh& mesh, Context& context) {
   context.measure("dropped", 0.0, "", Better::lower);
@@ -64,11 +50,25 @@ Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
   return vertices_of(read_stl(source, options, context), context);
 }
 
+CloudFormat chosen(const std::filesystem::path& path, CloudFormat format) {
+  if (format != CloudFormat::automatic) return format;
+  const std::string extension = lower(path.extension().string());
+  constexpr std::pair<std::string_view, CloudFormat> kFormats[] = {
+      {".pcd", CloudFormat::pcd}, {".ply", CloudFormat::ply}, {".xyz", CloudFormat::xyz},
+      {".txt", CloudFormat::xyz}, {".asc", CloudFormat::xyz}, {".csv", CloudFormat::csv},
+      {".vtk", CloudFormat::vtk}};
+  for (const auto& [known, by_extension] : kFormats)
+    if (known == extension) return by_extension;
+  throw Error(Fault::graph, "no format is known for " + quote(path.filename().string()) +
+                                ", expected .pcd, .ply, .xyz, .txt, .asc, .csv or .vtk")
+      .at("file")
+      .hint("name the format by format = \"...\"");
+}
+
 void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFormat format,
                  double unit, Context& context) {
-  if (format == CloudFormat::automatic) format = by_extension(path);
   AtomicFile file(path);
-  switch (format) {
+  switch (chosen(path, format)) {
     case CloudFormat::automatic:
     case CloudFormat::pcd:
       write_pcd(file, cloud, PcdKind::binary, unit, context);

@@ -24,6 +24,10 @@ enum class CloudFormat {
   vtk,
   vtk_ascii
 };
+
+/// `format`, or what the file's extension stands for; throws Error (Fault::graph) at "file" when it
+/// stands for none.
+CloudFormat chosen(const std::filesystem::path& path, CloudFormat format);
 /// Throws Error (Fault::output) naming the file when it cannot be written.
 void write_cloud(const std::filesystem::path& path, const Cloud& cloud, CloudFormat format,
                  double unit, Context& context);

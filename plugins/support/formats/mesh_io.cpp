@@ -12,21 +12,6 @@
 namespace velum::formats {
 namespace {
 
-MeshFormat by_extension(const std::filesystem::path& path) {
-  const std::string extension = lower(path.extension().string());
-  constexpr std::pair<std::string_view, MeshFormat> kFormats[] = {{".ply", MeshFormat::ply},
-                                                                  {".stl", MeshFormat::stl},
-                                                                  {".obj", MeshFormat::obj},
-                                                                  {".off", MeshFormat::off},
-                                                                  {".vtk", MeshFormat::vtk}};
-  for (const auto& [known, format] : kFormats)
-    if (known == extension) return format;
-  throw Error(Fault::graph, "no format is known for the extension " + quote(extension) +
-                                ", expected .ply, .stl, .obj, .off or .vtk")
-      .at(path.string())
-      .hint("name the format by format = \"...\"");
-}
-
 Mesh read_known(Source& source, Format format, const ReadOptions& options, Context& context) {
   switch (format) {
     case Format::ply:
@@ -59,11 +44,26 @@ Mesh read_mesh(Source& source, const ReadOptions& options, Context& context) {
   return mesh;
 }
 
+MeshFormat chosen(const std::filesystem::path& path, MeshFormat format) {
+  if (format != MeshFormat::automatic) return format;
+  const std::string extension = lower(path.extension().string());
+  constexpr std::pair<std::string_view, MeshFormat> kFormats[] = {{".ply", MeshFormat::ply},
+                                                                  {".stl", MeshFormat::stl},
+                                                                  {".obj", MeshFormat::obj},
+                                                                  {".off", MeshFormat::off},
+                                                                  {".vtk", MeshFormat::vtk}};
+  for (const auto& [known, by_extension] : kFormats)
+    if (known == extension) return by_extension;
+  throw Error(Fault::graph, "no format is known for " + quote(path.filename().string()) +
+                                ", expected .ply, .stl, .obj, .off or .vtk")
+      .at("file")
+      .hint("name the format by format = \"...\"");
+}
+
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, MeshFormat format, double unit,
                 Context& context) {
-  if (format == MeshFormat::automatic) format = by_extension(path);
   AtomicFile file(path);
-  switch (format) {
+  switch (chosen(path, format)) {
     case MeshFormat::automatic:
     case MeshFormat::ply:
       write_ply(file, mesh, false, unit, context);
