@@ -20,8 +20,12 @@ function(velum_test name)
   target_compile_definitions(${target} PRIVATE VELUM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     VELUM_BINARY_DIR="${PROJECT_BINARY_DIR}")
   # What is tested is optimised; the test itself builds faster without.
-  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${VELUM_SANITIZE}>,-O0,-O1>
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # it errs about Eigen's types at -O1
+  if(VELUM_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE -O1
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # it errs about Eigen's types at -O1
+  endif()
   if(arg_DEPENDS)
     add_dependencies(${target} ${arg_DEPENDS})
   endif()
