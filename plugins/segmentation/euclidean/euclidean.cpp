@@ -50,8 +50,9 @@ struct Euclidean {
     velum::shapes::measure(clusters, context);
     context.measure("refused", static_cast<double>(refused), "");
     if (clusters.kinds.empty() && !cloud.empty())
-      context.warn(fmt::format("none of {} groups has {} to {} points; the largest has {}", refused,
-                               min_size, most, parts.sizes.front()));
+      context.warn(
+          fmt::format("none of {} groups has {} (min_size) to {} points; the largest has {}",
+                      refused, min_size, most, parts.sizes.front()));
     return clusters;
   }
 };

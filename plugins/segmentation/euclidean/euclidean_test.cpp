@@ -4,8 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shapes/test_hand_labels.hpp"
-#include "shapes/test_scene.hpp"
+#include "shapes/test_segmentation.hpp"
 
 using velum::Cloud;
 using velum::Clusters;
@@ -59,6 +58,10 @@ Eigen::VectorXi by_hand(const Cloud& cloud, double distance) {
 }
 
 }  // namespace
+
+TEST_CASE("what every segmentation promises") {
+  velum::test::keeps_promises(stage("4 spacing"), "100000");
+}
 
 TEST_CASE("bodies that stand apart are told apart, the largest first (figure 3.24, left)") {
   const Outcome outcome = stage("0.2").run(balls());
@@ -150,13 +153,8 @@ TEST_CASE("objects on a table join it (mOSD)") {
 
 TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
   const Stage made("segmentation.euclidean");
-  std::string faults;
-  if (!velum::test::holds_on_terrain(
-          made, {{"samp11", 0.996, 0.595}, {"samp22", 0.949, 0.834}, {"samp53", 0.999, 0.960}},
-          faults))
-    WARN("skipped: VELUM_SHARED has no ISPRS scans");
-  INFO(faults);
-  CHECK(faults.empty());
+  velum::test::finds_the_ground(
+      made, {{"samp11", 0.996, 0.595}, {"samp22", 0.949, 0.834}, {"samp53", 0.999, 0.960}});
 }
 
 TEST_CASE("conformance") {

@@ -4,13 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shapes/test_hand_labels.hpp"
-#include "shapes/test_scene.hpp"
+#include "shapes/test_segmentation.hpp"
 
 using velum::Cloud;
 using velum::Clusters;
 using velum::Index;
 using velum::Points;
+using velum::test::noisy_shapes;
 using velum::test::Outcome;
 using velum::test::Stage;
 
@@ -22,58 +22,14 @@ Stage stage() {
   return made;
 }
 
-const Cloud& scene() {
-  static const Cloud cloud = velum::test::shapes_scene("4 mm");
-  return cloud;
-}
-
-Points patch(Index side) {
-  Points points(3, side * side);
-  for (Index i = 0; i < points.cols(); ++i)
-    points.col(i) =
-        0.01F * Eigen::Vector3f(static_cast<float>(i % side), static_cast<float>(i / side), 0.0F);
-  return points;
-}
-
 }  // namespace
 
 TEST_CASE("a flat patch is one cluster, and its row in the table tells it") {
-  const Cloud cloud =
-      Stage("features.normals").set("neighbours", "9").run(Cloud(patch(40))).cloud();
-  const Outcome outcome = stage().set("epsilon", "2 mm").run(cloud);
-  const auto& found = outcome.get<Clusters>();
-  REQUIRE(found.kinds.size() == 1);
-  CHECK(found.kinds.number(0, "points") > 1500.0);
-  CHECK(std::abs(found.kinds.number(0, "axis_z")) == Approx(1.0));
-  CHECK(found.kinds.number(0, "rms") < 1e-4);
-  CHECK(found.kinds.number(0, "length") == Approx(0.39).epsilon(0.05));
+  velum::test::describes_a_patch(stage().set("epsilon", "2 mm"));
 }
 
-TEST_CASE("labels and the table agree, the largest first") {
-  const Outcome outcome = stage().run(scene());
-  const auto& found = outcome.get<Clusters>();
-  for (std::size_t r = 0; r < found.kinds.size(); ++r) {
-    CHECK(found.kinds.number(r, "cluster") == static_cast<double>(r));
-    CHECK((found.label().array() == static_cast<int>(r)).count() ==
-          static_cast<Index>(found.kinds.number(r, "points")));
-    if (r > 0) CHECK(found.kinds.number(r, "points") <= found.kinds.number(r - 1, "points"));
-  }
-  CHECK(found.kinds.size() > 0);
-}
-
-TEST_CASE("nothing large enough leaves nothing, with a warning") {
-  const Outcome outcome = stage().set("min_size", "20000").run(scene());
-  CHECK(outcome.get<Clusters>().kinds.empty());
-  REQUIRE(outcome.warnings.size() == 1);
-  CHECK(outcome.warnings.front().find("min_size") != std::string::npos);
-}
-
-TEST_CASE("a cloud without normals is refused, an empty one gives nothing") {
-  CHECK_THROWS_AS(stage().run(Cloud(patch(10))), velum::Error);
-}
-
-TEST_CASE("cancelled before it starts it does not run") {
-  CHECK_THROWS_AS(stage().cancelled().run(scene()), velum::Cancelled);
+TEST_CASE("what every segmentation promises") {
+  velum::test::keeps_promises_with_normals(stage());
 }
 
 TEST_CASE("plane and sphere of the scene are found, with and without noise") {
@@ -92,7 +48,7 @@ TEST_CASE("plane and sphere of the scene are found, with and without noise") {
 TEST_CASE("the sphere alone is found with its centre and radius, with fewer votes too") {
   for (const char* votes : {"20000", "4000"}) {
     const Outcome outcome =
-        stage().set("model", "sphere").set("shapes", "1").set("votes", votes).run(scene());
+        stage().set("model", "sphere").set("shapes", "1").set("votes", votes).run(noisy_shapes());
     const auto& kinds = outcome.get<Clusters>().kinds;
     REQUIRE(kinds.size() == 1);
     CHECK(kinds.at(0, "model") == velum::Cell(std::string("sphere")));
@@ -112,7 +68,7 @@ TEST_CASE("crossing planes are told apart by their votes") {
     corner.col(400 + i) << a, -0.01F, b + 0.01F;
     corner.col(800 + i) << -0.01F, a, b + 0.01F;
   }
-  const Cloud cloud = Stage("features.normals").set("neighbours", "9").run(Cloud(corner)).cloud();
+  const Cloud cloud = velum::test::with_normals(Cloud(corner));
   const Outcome outcome =
       stage().set("model", "plane").set("min_size", "100").set("epsilon", "4 mm").run(cloud);
   const auto& found = outcome.get<Clusters>();
@@ -124,36 +80,18 @@ TEST_CASE("crossing planes are told apart by their votes") {
 }
 
 TEST_CASE("the same seed gives the same result") {
-  const auto labels = [](std::uint64_t seed) {
-    return Eigen::VectorXi(stage().seed(seed).run(scene()).get<Clusters>().label());
-  };
-  CHECK(labels(3) == labels(3));
+  velum::test::repeats_with_its_seed(stage());
 }
 
 TEST_CASE("the table under objects that people labelled (mOSD)") {
-  for (const std::string name : {"learn0", "learn36"}) {
-    const auto scan = velum::test::tabletop(name);
-    if (!scan) {
-      WARN("skipped: VELUM_SHARED has no mOSD");
-      return;
-    }
-    const Outcome outcome = Stage("segmentation.hough")
-                                .set("epsilon", "10 mm")
-                                .run(velum::test::joined_labels(*scan, 1, 9, 1));
-    CHECK(velum::test::score(outcome.get<Clusters>(), 1).iou() > 0.95);
-  }
+  velum::test::finds_the_tabletop(Stage("segmentation.hough").set("epsilon", "10 mm"));
 }
 
 TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
   Stage made("segmentation.hough");
   made.set("epsilon", "2 m");
-  std::string faults;
-  if (!velum::test::holds_on_terrain(
-          made, {{"samp11", 0.165, 0.825}, {"samp22", 0.579, 0.934}, {"samp53", 0.107, 0.980}},
-          faults))
-    WARN("skipped: VELUM_SHARED has no ISPRS scans");
-  INFO(faults);
-  CHECK(faults.empty());
+  velum::test::finds_the_ground(
+      made, {{"samp11", 0.165, 0.825}, {"samp22", 0.579, 0.934}, {"samp53", 0.107, 0.980}});
 }
 
 TEST_CASE("conformance") {

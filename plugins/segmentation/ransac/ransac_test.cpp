@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes/test_hand_labels.hpp"
-#include "shapes/test_scene.hpp"
+#include "shapes/test_segmentation.hpp"
 
 using velum::Cloud;
 using velum::Clusters;
 using velum::Index;
 using velum::Points;
+using velum::test::flat_patch;
+using velum::test::noisy_shapes;
 using velum::test::Outcome;
 using velum::test::Stage;
 
@@ -29,10 +30,6 @@ Stage stage(const char* model = "any") {
 
 const Cloud& exact_scene() {
   static const Cloud cloud = velum::test::shapes_scene("0 mm");
-  return cloud;
-}
-const Cloud& noisy_scene() {
-  static const Cloud cloud = velum::test::shapes_scene("4 mm");
   return cloud;
 }
 
@@ -59,21 +56,19 @@ Eigen::Vector3d triple(const Clusters& found, std::size_t row, const std::string
           found.kinds.number(row, name + "_z")};
 }
 
-// A patch of side×side points 10 mm apart about `corner`, in the plane z = corner.z.
-Points patch(Index side, const Eigen::Vector3f& corner) {
-  Points points(3, side * side);
-  for (Index i = 0; i < points.cols(); ++i)
-    points.col(i) = corner + 0.01F * Eigen::Vector3f(static_cast<float>(i % side),
-                                                     static_cast<float>(i / side), 0.0F);
-  return points;
-}
-
-Cloud with_normals(const std::vector<Points>& parts) {
-  std::vector<Cloud> clouds(parts.begin(), parts.end());
-  return Stage("features.normals").set("neighbours", "9").run(velum::merge(clouds)).cloud();
+Cloud patches(const std::vector<Points>& parts) {
+  return velum::test::with_normals(velum::merge(std::vector<Cloud>(parts.begin(), parts.end())));
 }
 
 }  // namespace
+
+TEST_CASE("what every segmentation promises") {
+  velum::test::keeps_promises_with_normals(stage());
+}
+
+TEST_CASE("a flat patch is one cluster, and its row in the table tells it") {
+  velum::test::describes_a_patch(stage().set("epsilon", "2 mm"));
+}
 
 TEST_CASE("without noise each shape reaches the thesis's share (table 3.24)") {
   const Outcome outcome = stage().run(exact_scene());
@@ -86,7 +81,7 @@ TEST_CASE("without noise each shape reaches the thesis's share (table 3.24)") {
 }
 
 TEST_CASE("with noise, which hid cylinder and cone from the thesis's, too") {
-  const Outcome outcome = stage().run(noisy_scene());
+  const Outcome outcome = stage().run(noisy_shapes());
   const auto& found = outcome.get<Clusters>();
   REQUIRE(found.kinds.size() == 4);
   reaches(found, kPlane, 0.998, 0.998);
@@ -100,7 +95,7 @@ TEST_CASE("with noise, which hid cylinder and cone from the thesis's, too") {
 }
 
 TEST_CASE("coefficients are those of the scene") {
-  const Outcome outcome = stage().run(noisy_scene());
+  const Outcome outcome = stage().run(noisy_shapes());
   const auto& found = outcome.get<Clusters>();
   const std::size_t plane = row_of(found, "plane");
   CHECK(std::abs(triple(found, plane, "axis").z()) > 0.99999);
@@ -126,7 +121,7 @@ TEST_CASE("one kind alone finds its shape among the others") {
   const std::pair<const char*, int> kinds[] = {
       {"plane", kPlane}, {"sphere", kSphere}, {"cylinder", kCylinder}, {"cone", kCone}};
   for (const auto& [model, label] : kinds) {
-    const Outcome outcome = stage(model).run(noisy_scene());
+    const Outcome outcome = stage(model).run(noisy_shapes());
     const auto score = velum::test::score(outcome.get<Clusters>(), label);
     INFO(model);
     CHECK(score.recall() > 0.98);
@@ -137,7 +132,7 @@ TEST_CASE("one kind alone finds its shape among the others") {
 
 TEST_CASE("partial shapes are found: of the cylinder the thesis's found none") {
   // Two thirds of the way around each upright axis, as in figure 3.29.
-  const Cloud& whole = noisy_scene();
+  const Cloud& whole = noisy_shapes();
   std::vector<std::int32_t> kept;
   const std::map<int, Eigen::Vector2f> axes = {
       {kSphere, {-1.3F, -1.2F}}, {kCylinder, {1.4F, -1.3F}}, {kCone, {0.2F, 1.5F}}};
@@ -163,7 +158,7 @@ TEST_CASE("edges are left out when they are not wanted") {
 }
 
 TEST_CASE("a gap parts what lies in one plane") {
-  const Cloud cloud = with_normals({patch(30, {0, 0, 0}), patch(25, {1, 0, 0})});
+  const Cloud cloud = patches({flat_patch(30), flat_patch(25, {1, 0, 0})});
   Stage one = stage("plane").set("epsilon", "1 mm").set("min_size", "100");
   CHECK(one.run(cloud).get<Clusters>().kinds.size() == 1);
   const Outcome parted =
@@ -174,7 +169,7 @@ TEST_CASE("a gap parts what lies in one plane") {
 }
 
 TEST_CASE("a plane is no giant ball, and an absolute tolerance may be relative") {
-  const Cloud cloud = with_normals({patch(40, {0, 0, 0})});
+  const Cloud cloud = patches({flat_patch(40)});
   const Outcome outcome = stage().set("epsilon", "0.5 spacing").run(cloud);
   REQUIRE(outcome.get<Clusters>().kinds.size() == 1);
   CHECK(outcome.get<Clusters>().kinds.at(0, "model") == velum::Cell(std::string("plane")));
@@ -185,7 +180,7 @@ TEST_CASE("where there is no shape none is made up") {
   velum::Random random(3);
   Points points(3, 3000);
   for (float& x : points.reshaped()) x = static_cast<float>(random.uniform());
-  const Cloud cloud = Stage("features.normals").set("neighbours", "9").run(Cloud(points)).cloud();
+  const Cloud cloud = velum::test::with_normals(Cloud(points));
   const Outcome outcome = stage().set("epsilon", "1 mm").run(cloud);
   CHECK(outcome.get<Clusters>().kinds.empty());
   REQUIRE(outcome.warnings.size() == 1);
@@ -194,7 +189,7 @@ TEST_CASE("where there is no shape none is made up") {
 }
 
 TEST_CASE("the seed decides, the number of threads does not") {
-  const Cloud& cloud = noisy_scene();
+  const Cloud& cloud = noisy_shapes();
   const auto labels = [&](int threads, std::uint64_t seed) {
     return Eigen::VectorXi(stage().threads(threads).seed(seed).run(cloud).get<Clusters>().label());
   };
@@ -210,31 +205,14 @@ TEST_CASE("fewer shapes can be asked for") {
 }
 
 TEST_CASE("the table under objects that people labelled (mOSD)") {
-  for (const std::string name : {"learn0", "learn36"}) {
-    const auto scan = velum::test::tabletop(name);
-    if (!scan) {
-      WARN("skipped: VELUM_SHARED has no mOSD");
-      return;
-    }
-    const Outcome outcome = Stage("segmentation.ransac")
-                                .set("epsilon", "10 mm")
-                                .run(velum::test::joined_labels(*scan, 1, 9, 1));
-    const auto table = velum::test::score(outcome.get<Clusters>(), 1);
-    INFO(name << " recall " << table.recall() << " precision " << table.precision());
-    CHECK(table.iou() > 0.95);
-  }
+  velum::test::finds_the_tabletop(Stage("segmentation.ransac").set("epsilon", "10 mm"));
 }
 
 TEST_CASE("airborne ground that people labelled (ISPRS) is met as the README says") {
   Stage made("segmentation.ransac");
   made.set("model", "plane").set("epsilon", "2 m");
-  std::string faults;
-  if (!velum::test::holds_on_terrain(
-          made, {{"samp11", 0.203, 0.845}, {"samp22", 0.598, 0.922}, {"samp53", 0.172, 0.979}},
-          faults))
-    WARN("skipped: VELUM_SHARED has no ISPRS scans");
-  INFO(faults);
-  CHECK(faults.empty());
+  velum::test::finds_the_ground(
+      made, {{"samp11", 0.203, 0.845}, {"samp22", 0.598, 0.922}, {"samp53", 0.172, 0.979}});
 }
 
 TEST_CASE("conformance") {

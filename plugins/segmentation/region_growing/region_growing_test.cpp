@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <velum/testing.hpp>
+
+#include "shapes/test_segmentation.hpp"
 
 using velum::Cloud;
 using velum::Clusters;
@@ -11,6 +12,7 @@ using velum::Index;
 using velum::Points;
 using velum::test::Outcome;
 using velum::test::Stage;
+using velum::test::with_normals;
 
 namespace {
 
@@ -23,10 +25,6 @@ Points patch(Index side, const Eigen::Vector3f& corner, const Eigen::Vector3f& u
       points.col(i * side + j) =
           corner + 0.01F * (static_cast<float>(i) * u + static_cast<float>(j) * v);
   return points;
-}
-
-Cloud with_normals(const Cloud& cloud) {
-  return Stage("features.normals").set("neighbours", "9").run(cloud).cloud();
 }
 
 Cloud join(const std::vector<Points>& parts) {
@@ -69,13 +67,12 @@ TEST_CASE("walls are told apart, the largest first") {
   CHECK(std::abs(found.kinds.number(0, "normal_z")) == Approx(1.0));
 }
 
+TEST_CASE("what every segmentation promises") {
+  velum::test::keeps_promises_with_normals(stage());
+}
+
 TEST_CASE("labels and the table of clusters agree") {
-  const Outcome outcome = stage().run(room());
-  const Clusters& found = clusters(outcome);
-  for (std::size_t row = 0; row < found.kinds.size(); ++row)
-    CHECK((found.label().array() == static_cast<int>(row)).count() == points_in(found, row));
-  const double assigned = static_cast<double>((found.label().array() >= 0).count());
-  CHECK(outcome.measure("assigned") == Approx(assigned / 1400.0));
+  velum::test::labels_agree(stage().run(room()));
 }
 
 TEST_CASE("the table describes each cluster") {
@@ -157,10 +154,6 @@ TEST_CASE("the order of the points does not matter to what belongs together") {
   const Outcome forth = stage().run(cloud);
   const Outcome back = stage().run(cloud.select(backwards));
   CHECK(points_in(clusters(forth), 0) == points_in(clusters(back), 0));
-}
-
-TEST_CASE("a cloud without normals is refused") {
-  CHECK_THROWS_AS(stage().run(Cloud(Points(Points::Random(3, 50)))), velum::Error);
 }
 
 TEST_CASE("conformance") {

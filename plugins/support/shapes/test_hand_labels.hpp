@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -59,29 +58,6 @@ inline Cloud joined_labels(const Cloud& cloud, int first, int last, int label) {
   for (int& one : labels)
     if (one >= first && one <= last) one = label;
   return cloud.with("label", Column(std::move(labels)));
-}
-
-/// What a README says that a stage finds of something labelled by hand.
-struct Figure {
-  const char* scan;
-  double recall;
-  double precision;
-};
-
-/// Runs the stage on each terrain; false where the data is missing. `faults` names what is more
-/// than 5 % away from its figure.
-inline bool holds_on_terrain(const Stage& stage, const std::vector<Figure>& figures,
-                             std::string& faults) {
-  for (const Figure& figure : figures) {
-    const auto scan = terrain(figure.scan);
-    if (!scan) return false;
-    const Score found = score(Stage(stage).run(*scan).get<Clusters>(), 1);
-    if (std::abs(found.recall() - figure.recall) > 0.05 ||
-        std::abs(found.precision() - figure.precision) > 0.05)
-      faults += std::string(figure.scan) + ": recall " + std::to_string(found.recall()) +
-                ", precision " + std::to_string(found.precision()) + "; ";
-  }
-  return true;
 }
 
 }  // namespace velum::test
