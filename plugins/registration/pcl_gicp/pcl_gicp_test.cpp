@@ -11,7 +11,7 @@ using velum::test::Stage;
 
 namespace {
 
-const LibraryStage kLibrary{"registration.pcl_gicp", {{"max_distance", "0.2 m"}}, 2e-3};
+const LibraryStage kLibrary{"registration.pcl_gicp", {{"max_distance", "0.2 m"}}, 6e-3};
 
 }  // namespace
 

@@ -54,7 +54,7 @@ TEST_CASE("PCL's ICP by points and by the symmetric objective finds the same mot
   for (const char* metric : {"point_to_point", "symmetric"}) {
     LibraryStage library = kLibrary;
     library.settings["metric"] = metric;
-    library.accuracy = 20e-3;  // points alone are held no better than their spacing
+    library.accuracy = 40e-3;  // points alone are held no better than their spacing
     INFO(metric);
     finds_a_known_motion(library);
     keeps_the_promises(library);

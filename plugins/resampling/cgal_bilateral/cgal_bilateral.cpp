@@ -4,6 +4,7 @@
 #include <CGAL/bilateral_smooth_point_set.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <velum/stage.hpp>
 
@@ -50,13 +51,15 @@ struct CgalBilateral {
     std::vector<Oriented> points = oriented(cloud, centre);
     const auto most = static_cast<unsigned int>(std::min<Index>(neighbours, cloud.size() - 1));
     for (int round = 0; round < iterations; ++round) {
+      // By reference: CGAL 5.5 keeps one to a copy that is gone.
+      const std::function<bool(double)> report = [&](double) { return !context.cancelled(); };
       velum::smoothing::guarded("CGAL's bilateral smoothing", [&] {
         CGAL::bilateral_smooth_point_set<CGAL::Sequential_tag>(
             points, most,
             CGAL::parameters::point_map(CGAL::First_of_pair_property_map<Oriented>())
                 .normal_map(CGAL::Second_of_pair_property_map<Oriented>())
                 .sharpness_angle(sharpness.radians * 180.0 / std::numbers::pi)
-                .callback([&](double) { return !context.cancelled(); }));
+                .callback(std::cref(report)));
       });
       context.check();
       context.progress((round + 1.0) / iterations);

@@ -4,6 +4,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/jet_smooth_point_set.h>
 
+#include <functional>
 #include <velum/stage.hpp>
 
 #include "smoothing/library.hpp"
@@ -55,12 +56,14 @@ struct CgalJet {
     }
     const auto most =
         static_cast<unsigned int>(std::min<velum::Index>(neighbours, cloud.size() - 1));
+    // By reference: CGAL 5.5 keeps one to a copy that is gone.
+    const std::function<bool(double)> report = velum::smoothing::progress(context);
     velum::smoothing::guarded("CGAL's jet smoothing", [&] {
       CGAL::jet_smooth_point_set<CGAL::Sequential_tag>(
           points, most,
           CGAL::parameters::degree_fitting(static_cast<unsigned int>(degree))
               .degree_monge(static_cast<unsigned int>(std::min(degree, 2)))
-              .callback(velum::smoothing::progress(context)));
+              .callback(std::cref(report)));
     });
     context.check();
     velum::Points positions(3, cloud.size());

@@ -4,6 +4,7 @@
 #include <CGAL/wlop_simplify_and_regularize_point_set.h>
 
 #include <cmath>
+#include <functional>
 #include <velum/stage.hpp>
 
 #include "smoothing/library.hpp"
@@ -74,6 +75,8 @@ struct CgalWlop {
     }
     // CGAL takes the whole part of share · n; one point at least.
     const double least = 1.0001 / static_cast<double>(cloud.size());
+    // By reference: CGAL 5.5 keeps one to a copy that is gone.
+    const std::function<bool(double)> report = velum::smoothing::progress(context);
     velum::smoothing::guarded("CGAL's WLOP", [&] {
       CGAL::wlop_simplify_and_regularize_point_set<CGAL::Sequential_tag>(
           points, std::back_inserter(made),
@@ -81,7 +84,7 @@ struct CgalWlop {
               .neighbor_radius(wide)
               .number_of_iterations(static_cast<unsigned int>(iterations))
               .require_uniform_sampling(uneven)
-              .callback(velum::smoothing::progress(context)));
+              .callback(std::cref(report)));
     });
   }
 
