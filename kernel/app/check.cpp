@@ -10,6 +10,7 @@
 #include "console.hpp"
 #include "graph/graph.hpp"
 #include "plugins/registry.hpp"
+#include "study/plan.hpp"
 
 namespace velum::app {
 namespace {
@@ -29,6 +30,11 @@ void check(const Options& options) {
   const std::size_t nodes = loaded.graph->nodes.size();
   print(fmt::format("{}: no mistakes, {} node{}\n", options.graph.string(), nodes,
                     nodes == 1 ? "" : "s"));
+  if (loaded.graph->study) {
+    const study::Plan plan = study::make_plan(*loaded.graph->study);
+    print(fmt::format("study: {} variants x {} repeats = {} cells\n", plan.variants.size(),
+                      plan.study.seeds.size(), plan.cells()));
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace velum::app {
 
 void add_run(CLI::App& app);
 void add_check(CLI::App& app);
+void add_study(CLI::App& app);
 void add_rerun(CLI::App& app);
 void add_list(CLI::App& app);
 void add_describe(CLI::App& app);

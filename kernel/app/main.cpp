@@ -99,6 +99,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);
   add_run(app);
   add_check(app);
+  add_study(app);
   add_rerun(app);
   add_list(app);
   add_describe(app);

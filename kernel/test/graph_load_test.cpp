@@ -241,7 +241,7 @@ valeus = 3
 )") == Lines{
            "E0206 5:10 'repeat' is 0; it must be at least 1",
            "E0202 6:1 unknown key 'measures' of [study] | did you mean 'measure'? | known: title, "
-           "repeat, measure, vary",
+           "repeat, seed, measure, vary, exclude, sample, reference, timing, timeout, memory",
            "E0404 7:44 the study names 'scna', but there is no such node | did you mean 'scan'? | "
            "known: scan",
            "E0601 7:54 a measure is written \"node.name\"",
@@ -251,10 +251,9 @@ valeus = 3
            "E0601 12:1 an axis of a parameter has either values or files | add values = [...]",
            "E0601 14:9 'param' is written \"node.name\"", "E0601 15:1 this axis has no values",
            "E0202 16:1 unknown key 'valeus' of [[study.vary]] | did you mean 'values'? | known: "
-           "title, "
-           "node, alternatives, param, values, files",
+           "title, zip, node, alternatives, param, values, range, files, rows",
            "E0601 17:1 an axis of a study varies either a node or a parameter | give either node "
-           "and alternatives, or param and values (or files)"});
+           "and alternatives, or param and values (or range, or files), or rows"});
 }
 
 TEST_CASE("the resolved text is the same graph") {
@@ -332,7 +331,7 @@ alternatives = [{ use = "meshing.delaunay_projected", max_edge = 3, "odd key" = 
   CHECK(same(*first.graph, *second.graph));
   CHECK(second.graph->resolved == first.graph->resolved);
   REQUIRE(second.graph->study);
-  CHECK(second.graph->study->find("vary")->value.items.size() == 2);
+  CHECK(second.graph->study->axes.size() == 2);
   CHECK(first.graph->nodes[first.graph->find("down").value()].settings[0] ==
         velum::Setting{velum::Length(0.009)});
 }

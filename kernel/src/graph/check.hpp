@@ -58,9 +58,11 @@ void check_files(Check& check);
 [[nodiscard]] std::vector<std::size_t> check_order(Check& check);
 /// Columns that inputs need, of the nodes in `order`.
 void check_needs(Check& check, const std::vector<std::size_t>& order);
-/// The form of [study].
-void check_study(Check& check);
+/// [study], where there is one; what is returned is whole when nothing was reported.
+[[nodiscard]] std::optional<Study> read_study(const Check& check);
 
+/// A value as TOML, on one line.
+[[nodiscard]] std::string value_text(const toml::Node& value);
 /// The graph as TOML that says the same without includes and overrides.
 [[nodiscard]] std::string resolved_text(const Check& check);
 

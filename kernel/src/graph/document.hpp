@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "graph/diagnostic.hpp"
+#include "graph/study.hpp"
 #include "graph/toml.hpp"
 #include "graph/units.hpp"
 
@@ -65,5 +66,8 @@ inline constexpr std::size_t kMaxNodes = 10'000;
                                                     const std::filesystem::path& name,
                                                     const std::vector<std::string>& overrides,
                                                     Diagnostics& diagnostics);
+
+/// Makes the document that of one variant of its study. Mistakes are reported.
+void vary(Document& document, const Variation& variation, Diagnostics& diagnostics);
 
 }  // namespace velum::graph

@@ -12,6 +12,7 @@
 
 #include "graph/catalog.hpp"
 #include "graph/diagnostic.hpp"
+#include "graph/study.hpp"
 #include "graph/toml.hpp"
 #include "velum/about.hpp"
 
@@ -58,7 +59,7 @@ struct Graph {
   std::string units;        ///< of the main file's bare lengths; "" when it does not say
   std::vector<Node> nodes;  ///< every node after those it takes from; the same order every time
   std::string resolved;     ///< as TOML: includes merged, overrides applied, units explicit
-  std::optional<toml::Node> study;  ///< the table [study], checked as to form only
+  std::optional<Study> study;
 
   /// Index of the node called `name`.
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
@@ -66,6 +67,7 @@ struct Graph {
 
 struct LoadOptions {
   std::optional<std::filesystem::path> out;  ///< where outputs will go: checked to be writable
+  const Variation* variation = nullptr;      ///< the graph of this variant, without its study
 };
 
 /// `graph` is there when there are no diagnostics.

@@ -40,7 +40,6 @@ Graph make_graph(Check& check, const fs::path& path, const std::vector<std::size
   graph.title = check.document.title;
   graph.units = check.document.units;
   graph.resolved = resolved_text(check);
-  if (check.document.study != nullptr) graph.study = check.document.study->value;
   graph.nodes = in_order(check.nodes, order);
   return graph;
 }
@@ -56,8 +55,9 @@ std::optional<std::size_t> Graph::find(std::string_view name) const {
 Loaded load_text(std::string text, const fs::path& path, const std::vector<std::string>& overrides,
                  Catalog& catalog, const LoadOptions& options) {
   Loaded loaded;
-  const auto document = read_document(std::move(text), path, overrides, loaded.diagnostics);
+  auto document = read_document(std::move(text), path, overrides, loaded.diagnostics);
   if (!document) return loaded;
+  if (options.variation != nullptr) vary(*document, *options.variation, loaded.diagnostics);
   Check check{*document, catalog, loaded.diagnostics, options};
   check_stages(check);
   check_settings(check);
@@ -65,12 +65,14 @@ Loaded load_text(std::string text, const fs::path& path, const std::vector<std::
   check_files(check);
   const std::vector<std::size_t> order = check_order(check);
   check_needs(check, order);
-  check_study(check);
+  std::optional<Study> study = read_study(check);
   if (document->drafts.empty() && loaded.diagnostics.empty())
     Reporter(loaded.diagnostics, document->files.front().source)
         .error("E0105", {}, "the graph has no nodes", "write [node.NAME] with use = \"KIND.NAME\"");
   sort(loaded.diagnostics, *document);
-  if (loaded.diagnostics.empty()) loaded.graph = make_graph(check, path, order);
+  if (!loaded.diagnostics.empty()) return loaded;
+  loaded.graph = make_graph(check, path, order);
+  loaded.graph->study = std::move(study);
   return loaded;
 }
 

@@ -30,33 +30,6 @@ std::string number_text(double x) {
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
-/// Any value, on one line.
-std::string value_text(const toml::Node& value) {
-  switch (value.kind) {
-    case Kind::string:
-      return toml::quoted(value.text);
-    case Kind::integer:
-      return fmt::format("{}", value.integer);
-    case Kind::number:
-      return number_text(value.number);
-    case Kind::boolean:
-      return value.boolean ? "true" : "false";
-    case Kind::array: {
-      std::vector<std::string> items;
-      for (const toml::Node& item : value.items) items.push_back(value_text(item));
-      return fmt::format("[{}]", fmt::join(items, ", "));
-    }
-    case Kind::table: {
-      std::vector<std::string> entries;
-      for (const toml::Entry& entry : value.entries)
-        entries.push_back(key_text(entry.key) + " = " + value_text(entry.value));
-      return entries.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
-    }
-    default:
-      return value.text;
-  }
-}
-
 std::string line(std::string_view key, const std::string& value) {
   return fmt::format("{} = {}\n", key, value);
 }
@@ -114,6 +87,32 @@ std::string study_text(const toml::Node& study) {
 }
 
 }  // namespace
+
+std::string value_text(const toml::Node& value) {
+  switch (value.kind) {
+    case Kind::string:
+      return toml::quoted(value.text);
+    case Kind::integer:
+      return fmt::format("{}", value.integer);
+    case Kind::number:
+      return number_text(value.number);
+    case Kind::boolean:
+      return value.boolean ? "true" : "false";
+    case Kind::array: {
+      std::vector<std::string> items;
+      for (const toml::Node& item : value.items) items.push_back(value_text(item));
+      return fmt::format("[{}]", fmt::join(items, ", "));
+    }
+    case Kind::table: {
+      std::vector<std::string> entries;
+      for (const toml::Entry& entry : value.entries)
+        entries.push_back(key_text(entry.key) + " = " + value_text(entry.value));
+      return entries.empty() ? "{}" : fmt::format("{{ {} }}", fmt::join(entries, ", "));
+    }
+    default:
+      return value.text;
+  }
+}
 
 std::string resolved_text(const Check& check) {
   std::string text = "format = 1\n";

@@ -8,8 +8,10 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 
 #include "files/descriptor.hpp"
 #include "files/hasher.hpp"
@@ -156,6 +158,22 @@ std::string Cache::store(const std::string& key, const CacheEntry& entry, const 
   } catch (const fs::filesystem_error& error) {
     return fmt::format("{}: {}", error.path1().string(), error.code().message());
   }
+}
+
+Cache::Claim Cache::claim(const std::string& key, const std::atomic<bool>* cancel) const {
+  constexpr std::size_t kDigits = 3;  // 4096 files at most, shared by keys that begin alike
+  constexpr std::chrono::milliseconds kPause{5};
+  std::error_code failed;
+  fs::create_directories(folder_ / "claims", failed);
+  const fs::path file = folder_ / "claims" / key.substr(0, kDigits);
+  Claim claim{files::Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))};
+  // Where there are no locks it is made twice: that is all.
+  while (claim.lock && ::flock(claim.lock.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
+         (cancel == nullptr || !*cancel)) {
+    claim.waited = true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return claim;
 }
 
 void Cache::trim() {

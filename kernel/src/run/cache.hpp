@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "files/descriptor.hpp"
 #include "run/json.hpp"
 #include "run/local_context.hpp"
 #include "velum/stage.hpp"
@@ -37,6 +38,14 @@ class Cache {
   /// Marks the entry as used now.
   [[nodiscard]] std::optional<CacheEntry> find(const std::string& key) const;
   [[nodiscard]] std::optional<Results> load(const std::string& key, const CacheEntry& entry) const;
+  /// The right to make what belongs to `key`, held until it is destroyed, so that processes that
+  /// run side by side make it once. `waited`: another one has had it meanwhile, find() again.
+  struct Claim {
+    files::Descriptor lock;
+    bool waited = false;
+  };
+  /// Waits for whoever holds it, unless `cancel` is set meanwhile.
+  [[nodiscard]] Claim claim(const std::string& key, const std::atomic<bool>* cancel) const;
   /// Returns why the results could not be kept; "" when they are.
   std::string store(const std::string& key, const CacheEntry& entry, const Results& results);
   /// Removes what was not used for longest until the folder is within its limit. Does nothing when

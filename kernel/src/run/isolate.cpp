@@ -25,6 +25,7 @@
 #include "run/node_error.hpp"
 #include "run/record.hpp"
 #include "run/setting_json.hpp"
+#include "run/usage.hpp"
 #include "values/flat.hpp"
 
 namespace velum::run {
@@ -113,16 +114,6 @@ class Child {
   files::Descriptor messages_;
   pid_t pid_ = -1;
 };
-
-std::uint64_t resident_bytes(pid_t process) {
-  const files::Descriptor file(
-      ::open(fmt::format("/proc/{}/statm", process).c_str(), O_RDONLY | O_CLOEXEC));
-  std::array<char, 128> text{};
-  if (!file || ::read(file.get(), text.data(), text.size() - 1) <= 0) return 0;
-  const char* second = std::strchr(text.data(), ' ');
-  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return second == nullptr ? 0 : std::strtoull(second, nullptr, 10) * page;
-}
 
 /// Passes on what the child says, line by line.
 class Listener {

@@ -71,7 +71,13 @@ void NodeRunner::run(std::size_t node, int threads) {
   const std::lock_guard making(state.making);
   try {
     const auto began = Clock::now();
-    if (find_cached(state)) {
+    bool cached = find_cached(state);
+    Cache::Claim claim;
+    if (!cached && !state.key.empty()) {
+      claim = options_.cache->claim(state.key, options_.cancel);
+      cached = claim.waited && find_cached(state);
+    }
+    if (cached) {
       const std::lock_guard lock(mutex_);
       state.record.seconds = std::chrono::duration<double>(Clock::now() - began).count();
     } else {

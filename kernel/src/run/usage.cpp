@@ -3,12 +3,14 @@
 #include "run/usage.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <string_view>
@@ -21,6 +23,16 @@ double seconds(const timeval& time) {
 }
 
 }  // namespace
+
+std::uint64_t resident_bytes(pid_t process) {
+  const files::Descriptor file(
+      ::open(fmt::format("/proc/{}/statm", process).c_str(), O_RDONLY | O_CLOEXEC));
+  std::array<char, 128> text{};
+  if (!file || ::read(file.get(), text.data(), text.size() - 1) <= 0) return 0;
+  const char* second = std::strchr(text.data(), ' ');
+  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return second == nullptr ? 0 : std::strtoull(second, nullptr, 10) * page;
+}
 
 double own_cpu_seconds() {
   struct timespec time = {};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <mutex>
 
@@ -9,6 +11,8 @@
 
 namespace velum::run {
 
+/// Resident memory of a process [bytes]; 0 when it is gone.
+std::uint64_t resident_bytes(pid_t process);
 /// Processor time of this process [s].
 double own_cpu_seconds();
 /// Processor time of this process and its ended children [s].

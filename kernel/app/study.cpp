@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "study/study.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "graph/settings.hpp"
+#include "graph/units.hpp"
+#include "run/cache.hpp"
+#include "run/run.hpp"
+#include "run/signals.hpp"
+#include "study/tables.hpp"
+
+namespace velum::app {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  velum study radii.toml                      every variant of its [study]
+  velum study radii.toml --resume             go on after a kill or Ctrl-C
+  velum study radii.toml --jobs 1 --timeout "2 min" --memory "4 GB"
+
+Exit status: 0, or 3 when the study is complete but some variants failed.)";
+
+/// Some variants failed.
+constexpr int kSomeFailed = 3;
+
+struct Options {
+  std::filesystem::path graph;
+  study::StudyOptions study;
+  bool no_cache = false;
+  std::string timeout;
+  std::string memory;
+};
+
+double seconds_of(const std::string& text) {
+  Parameter parameter;
+  parameter.name = "--timeout";
+  parameter.type = ParameterType::duration;
+  parameter.range = above(0.0);
+  return std::get<double>(graph::parse_setting_text(parameter, text).value);
+}
+
+std::uint64_t bytes_of(const std::string& text) {
+  const auto amount = graph::parse_amount(text);
+  const auto bytes = amount ? graph::to_bytes(*amount) : std::optional<double>{};
+  if (!bytes || !(*bytes >= 1.0) || *bytes > 1e18)
+    throw Error(Fault::graph, fmt::format("--memory '{}' is no amount of memory", text))
+        .hint("write --memory \"2 GB\"");
+  return static_cast<std::uint64_t>(*bytes);
+}
+
+/// One line for each cell that ends.
+class Progress {
+ public:
+  void operator()(const study::Plan& plan, const study::Cell& cell, const study::Outcome& outcome,
+                  std::size_t done) {
+    const study::Variant& variant = plan.variants[cell.variant];
+    std::string line = fmt::format("[{}/{}] {}", done, plan.cells(), variant.id);
+    for (std::size_t a = 0; a < plan.study.axes.size(); ++a)
+      line += fmt::format(" {}={}", plan.study.axes[a].name, plan.label(variant, a));
+    if (plan.study.seeds.size() > 1) line += fmt::format(" repeat {}", cell.repeat + 1);
+    line += fmt::format(": {}", name_of(outcome.status));
+    if (!outcome.message.empty()) line += " (" + outcome.message + ")";
+    ++ended_;
+    const double each =
+        std::chrono::duration<double>(Clock::now() - began_).count() / static_cast<double>(ended_);
+    const double left = each * static_cast<double>(plan.cells() - done);
+    if (left > 5.0) line += fmt::format(", about {:.0f} s left", left);
+    complain(line + "\n");
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point began_ = Clock::now();
+  std::size_t ended_ = 0;
+};
+
+int report(const study::StudyResult& result, const std::filesystem::path& out) {
+  if (!result.finished) {
+    complain(fmt::format("interrupted: {} of {} cells are kept in {}; --resume goes on\n",
+                         result.done, result.plan.cells(), out.string()));
+    return run::kInterrupted;
+  }
+  print(study::text(result.plan, result.comparison));
+  std::size_t failed = 0;
+  for (const auto& variant : result.comparison.variants) {
+    if (variant.status == study::Status::ok) continue;
+    const std::size_t v = static_cast<std::size_t>(&variant - result.comparison.variants.data());
+    if (++failed <= 20)
+      print(fmt::format("{} {}: {}\n", result.plan.variants[v].id, name_of(variant.status),
+                        variant.message));
+  }
+  print((out / "study.csv").string() + "\n" + (out / "study.json").string() + "\n");
+  return failed > 0 ? kSomeFailed : 0;
+}
+
+void study_command(Options options) {
+  if (!options.timeout.empty()) options.study.seconds = seconds_of(options.timeout);
+  if (!options.memory.empty()) options.study.bytes = bytes_of(options.memory);
+  if (options.study.out.empty()) options.study.out = options.graph.stem().string() + ".out";
+  if (options.no_cache) {
+    options.study.cache.clear();
+  } else if (options.study.cache.empty()) {
+    options.study.cache = run::default_cache_folder();
+  }
+  plugins::Registry registry;
+  const graph::Loaded loaded = graph::load(options.graph, options.study.overrides, registry);
+  if (!loaded.graph) {
+    complain(graph::format(loaded.diagnostics));
+    throw Exit{graph::exit_status(loaded.diagnostics)};
+  }
+  run::catch_signals();
+  options.study.cancel = &run::stop_requested();
+  const int status = report(study::run_study(*loaded.graph, registry, options.study, Progress()),
+                            options.study.out);
+  if (status != 0) throw Exit{status};
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  study::StudyOptions& study = options->study;
+  CLI::App* command =
+      app.add_subcommand("study", "Run every variant of a graph's study and compare");
+  command->footer(kExamples);
+  command->add_option("GRAPH", options->graph, "the graph, a TOML file with [study]")->required();
+  command->add_option("--out", study.out, "output folder; default: <graph>.out here")
+      ->type_name("DIR");
+  command->add_option("--set", study.overrides, "node.param=VALUE: another value in every variant")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  command->add_option("--jobs", study.jobs, "cells at a time; default: one for each processor")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--threads", study.threads, "threads of a cell; default: what the jobs leave")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--timeout", options->timeout, "longest time of a cell, as \"60 s\"")
+      ->type_name("T");
+  command->add_option("--memory", options->memory, "most memory of a cell, as \"2 GB\"")
+      ->type_name("M");
+  auto* cache = command->add_option("--cache", study.cache, "where results are kept and shared")
+                    ->type_name("DIR");
+  command->add_flag("--no-cache", options->no_cache, "every cell runs all of its nodes")
+      ->excludes(cache);
+  command->add_flag("--resume", study.resume, "run only the cells that have not ended yet");
+  command->callback([options] { study_command(*options); });
+}
+
+}  // namespace velum::app

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "study/folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string_view>
+
+#include "velum/error.hpp"
+
+namespace velum::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLock = ".velum.lock";
+constexpr std::array<std::string_view, 6> kOurs = {kJournalName,  "study.csv", "study.json",
+                                                   "report.html", "cells",     kLock};
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& message,
+                         const std::string& hint) {
+  throw Error(Fault::output, message).at(path.string()).hint(hint);
+}
+
+}  // namespace
+
+Folder::Folder(const fs::path& path, const Journal::Heading& heading, bool resume)
+    : path_(fs::absolute(path).lexically_normal()) {
+  std::error_code failed;
+  fs::create_directories(path_, failed);
+  if (!fs::is_directory(path_))
+    refuse(path_, failed ? "the folder cannot be made: " + failed.message() : "not a folder",
+           "choose another folder with --out");
+  lock();
+  refuse_strangers();
+  const auto earlier = Journal::heading_of(path_ / kJournalName);
+  if (earlier && earlier->graph != heading.graph)
+    refuse(path_, "the folder holds the study of another graph, " + earlier->graph,
+           "choose another folder with --out, or remove this one");
+  if (resume) {
+    if (earlier && earlier->key != heading.key)
+      throw Error(Fault::graph, "the graph, its study or a plugin has changed since")
+          .at((path_ / kJournalName).string())
+          .hint("begin anew without --resume, or in another folder");
+    return;
+  }
+  for (const std::string_view name : kOurs)
+    if (name != kLock) fs::remove_all(path_ / name, failed);
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove(path_ / kLock, ignored);
+}
+
+void Folder::lock() {
+  lock_ = files::Descriptor(
+      ::open((path_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+  if (!lock_)
+    refuse(path_, "cannot be written: " + files::reason(errno), "choose another folder with --out");
+  if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0)
+    refuse(path_, "another process is writing to this folder",
+           "wait for it, or choose another folder with --out");
+}
+
+void Folder::refuse_strangers() const {
+  for (const auto& entry : fs::directory_iterator(path_)) {
+    const std::string name = entry.path().filename().string();
+    const bool partial = name.starts_with(".") && name.find(".partial.") != std::string::npos;
+    if (!partial && std::ranges::find(kOurs, name) == kOurs.end())
+      refuse(path_, "the folder holds what is not a result of a study: " + name,
+             "choose another folder with --out");
+  }
+}
+
+}  // namespace velum::study

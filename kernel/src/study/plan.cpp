@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "velum/error.hpp"
+#include "velum/random.hpp"
+
+namespace velum::study {
+namespace {
+
+/// Counts through all combinations; the last axis runs fastest. Axes that are zipped share a wheel.
+class Wheels {
+ public:
+  explicit Wheels(const std::vector<graph::Axis>& axes) {
+    std::map<std::string, std::size_t> zips;
+    for (const graph::Axis& axis : axes) {
+      const auto [zip, fresh] = zips.try_emplace(axis.zip, sizes_.size());
+      if (axis.zip.empty() || fresh) {
+        wheel_of_.push_back(sizes_.size());
+        sizes_.push_back(axis.choices.size());
+      } else {
+        wheel_of_.push_back(zip->second);
+      }
+    }
+  }
+
+  /// Throws when there are too many to count one by one.
+  [[nodiscard]] std::size_t count() const {
+    std::size_t product = 1;
+    for (const std::size_t size : sizes_) {
+      if (size > 0 && product > kMostCombinations / size)
+        throw Error(Fault::graph,
+                    fmt::format("the study has more than {} combinations", kMostCombinations));
+      product *= size;
+    }
+    return product;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> at(std::size_t number) const {
+    std::vector<std::size_t> turned(sizes_.size());
+    for (std::size_t w = sizes_.size(); w-- > 0; number /= sizes_[w])
+      turned[w] = number % sizes_[w];
+    std::vector<std::size_t> choices;
+    for (const std::size_t wheel : wheel_of_) choices.push_back(turned[wheel]);
+    return choices;
+  }
+
+ private:
+  static constexpr std::size_t kMostCombinations = 100'000'000;
+  std::vector<std::size_t> sizes_;
+  std::vector<std::size_t> wheel_of_;
+};
+
+bool matches(const graph::Study& study, const std::vector<std::size_t>& choices,
+             const graph::Labels& labels) {
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const auto wanted = labels.find(study.axes[a].name);
+    if (wanted != labels.end() && wanted->second != study.axes[a].choices[choices[a]].label)
+      return false;
+  }
+  return true;
+}
+
+/// `size` of `count` numbers, ascending; the same for the same seed (Floyd's algorithm would save
+/// memory that is not short here).
+std::vector<std::size_t> drawn(std::vector<std::size_t> numbers, std::size_t size) {
+  Random random(1);
+  for (std::size_t i = 0; i < size; ++i)
+    std::swap(numbers[i], numbers[i + static_cast<std::size_t>(random.below(
+                                          static_cast<std::int64_t>(numbers.size() - i)))]);
+  numbers.resize(size);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+}  // namespace
+
+graph::Variation Plan::variation(const Variant& variant) const {
+  graph::Variation all;
+  for (std::size_t a = 0; a < study.axes.size(); ++a) {
+    const graph::Variation& one = study.axes[a].choices[variant.choices[a]].variation;
+    all.alternatives.insert(all.alternatives.end(), one.alternatives.begin(),
+                            one.alternatives.end());
+    all.values.insert(all.values.end(), one.values.begin(), one.values.end());
+  }
+  return all;
+}
+
+std::size_t Plan::reference_of(std::size_t variant) const {
+  if (!study.reference) return variants.size();
+  const auto is_reference = [&](const Variant& other) {
+    if (!matches(study, other.choices, *study.reference)) return false;
+    for (std::size_t a = 0; a < study.axes.size(); ++a)
+      if (!study.reference->contains(study.axes[a].name) &&
+          other.choices[a] != variants[variant].choices[a])
+        return false;
+    return true;
+  };
+  return static_cast<std::size_t>(std::ranges::find_if(variants, is_reference) - variants.begin());
+}
+
+Plan make_plan(graph::Study study) {
+  const Wheels wheels(study.axes);
+  std::vector<std::size_t> numbers;
+  for (std::size_t n = 0; n < wheels.count(); ++n) {
+    const auto choices = wheels.at(n);
+    const auto excludes = [&](const graph::Labels& labels) {
+      return matches(study, choices, labels);
+    };
+    if (std::ranges::none_of(study.exclude, excludes)) numbers.push_back(n);
+  }
+  if (study.sample && *study.sample < numbers.size())
+    numbers = drawn(std::move(numbers), *study.sample);
+  if (numbers.empty())
+    throw Error(Fault::graph, "the study excludes every variant")
+        .hint("take some of 'exclude' away");
+  if (numbers.size() > kMostVariants)
+    throw Error(Fault::graph, fmt::format("the study has {} variants, more than {}", numbers.size(),
+                                          kMostVariants))
+        .hint("`sample = 1000` takes some of them at random");
+  Plan plan;
+  const std::size_t width = fmt::format("{}", numbers.size()).size();
+  for (const std::size_t n : numbers)
+    plan.variants.push_back(
+        {fmt::format("v{:0{}}", plan.variants.size() + 1, width), wheels.at(n)});
+  plan.study = std::move(study);
+  return plan;
+}
+
+}  // namespace velum::study

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+#include "study/journal.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "run_support.hpp"
+#include "study/folder.hpp"
+
+using namespace velum::study;  // NOLINT: a test
+using velum::test::RunFolder;
+
+namespace {
+
+const Journal::Heading kHeading{"/g.toml", "k1"};
+
+Outcome outcome(double value) {
+  Outcome made;
+  made.status = Status::ok;
+  made.message = "two\nlines, and \xff";
+  made.figures["a.b"] = {value, "m", velum::Better::higher};
+  made.source = "s";
+  return made;
+}
+
+}  // namespace
+
+TEST_CASE("what was added is there again") {
+  const RunFolder folder;
+  Journal(folder / "j", kHeading).add({3, 1}, outcome(0.1));
+  Journal journal(folder / "j", kHeading);
+  journal.add({4, 0}, outcome(std::nan("")));
+  const Journal again(folder / "j", kHeading);
+  REQUIRE(again.outcomes().size() == 2);
+  const Outcome& found = again.outcomes().at({3, 1});
+  CHECK(found.figures.at("a.b").value == 0.1);
+  CHECK(found.figures.at("a.b").better == velum::Better::higher);
+  CHECK(std::isnan(again.outcomes().at({4, 0}).figures.at("a.b").value));
+  CHECK(Journal::heading_of(folder / "j")->key == "k1");
+}
+
+TEST_CASE("cut off anywhere it keeps every whole line and goes on") {
+  const RunFolder folder;
+  {
+    Journal journal(folder / "j", kHeading);
+    for (std::size_t v = 0; v < 3; ++v) journal.add({v, 0}, outcome(1.0));
+  }
+  const std::string whole = folder.read("j");
+  for (std::size_t length = 0; length <= whole.size(); length += 7) {
+    folder.write("j", whole.substr(0, length));
+    {
+      Journal journal(folder / "j", kHeading);
+      const auto lines = std::count(whole.begin(), whole.begin() + static_cast<long>(length), '\n');
+      CHECK(journal.outcomes().size() == static_cast<std::size_t>(std::max<long>(lines - 1, 0)));
+      journal.add({9, 9}, outcome(2.0));
+    }
+    CHECK(Journal(folder / "j", kHeading).outcomes().contains({9, 9}));
+  }
+}
+
+TEST_CASE("a damaged line ends what is believed") {
+  const RunFolder folder;
+  {
+    Journal journal(folder / "j", kHeading);
+    for (std::size_t v = 0; v < 3; ++v) journal.add({v, 0}, outcome(1.0));
+  }
+  std::string text = folder.read("j");
+  text[text.find("[1,0]") + 1] = '7';
+  folder.write("j", text);
+  CHECK(Journal(folder / "j", kHeading).outcomes().size() == 1);
+}
+
+TEST_CASE("a study's folder is its own") {
+  const RunFolder folder;
+  {
+    const Folder held(folder / "out", kHeading, false);
+    CHECK_THROWS_WITH(Folder(folder / "out", kHeading, false),
+                      "another process is writing to this folder");
+    Journal(folder / "out/study.journal", kHeading).add({0, 0}, outcome(1.0));
+  }
+  CHECK_NOTHROW(Folder(folder / "out", kHeading, true));
+  CHECK_THROWS_WITH(Folder(folder / "out", {"/g.toml", "k2"}, true),
+                    "the graph, its study or a plugin has changed since");
+  CHECK_THROWS_WITH(Folder(folder / "out", {"/other.toml", "k1"}, false),
+                    "the folder holds the study of another graph, /g.toml");
+  folder.write("out/mine.txt", "");
+  CHECK_THROWS_WITH(Folder(folder / "out", kHeading, false),
+                    "the folder holds what is not a result of a study: mine.txt");
+  std::filesystem::remove(folder / "out/mine.txt");
+  { const Folder anew(folder / "out", kHeading, false); }
+  CHECK_FALSE(std::filesystem::exists(folder / "out/study.journal"));
+}
