@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "study/journal.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
-#include "run_support.hpp"
+#include "folder.hpp"
 #include "study/folder.hpp"
 
 using namespace velum::study;  // NOLINT: a test
-using velum::test::RunFolder;
+using TestFolder = velum::test::Folder;
 
 namespace {
 
@@ -26,7 +28,7 @@ Outcome outcome(double value) {
 }  // namespace
 
 TEST_CASE("what was added is there again") {
-  const RunFolder folder;
+  const TestFolder folder;
   Journal(folder / "j", kHeading).add({3, 1}, outcome(0.1));
   Journal journal(folder / "j", kHeading);
   journal.add({4, 0}, outcome(std::nan("")));
@@ -40,7 +42,7 @@ TEST_CASE("what was added is there again") {
 }
 
 TEST_CASE("cut off anywhere it keeps every whole line and goes on") {
-  const RunFolder folder;
+  const TestFolder folder;
   {
     Journal journal(folder / "j", kHeading);
     for (std::size_t v = 0; v < 3; ++v) journal.add({v, 0}, outcome(1.0));
@@ -59,7 +61,7 @@ TEST_CASE("cut off anywhere it keeps every whole line and goes on") {
 }
 
 TEST_CASE("a damaged line ends what is believed") {
-  const RunFolder folder;
+  const TestFolder folder;
   {
     Journal journal(folder / "j", kHeading);
     for (std::size_t v = 0; v < 3; ++v) journal.add({v, 0}, outcome(1.0));
@@ -71,7 +73,7 @@ TEST_CASE("a damaged line ends what is believed") {
 }
 
 TEST_CASE("a study's folder is its own") {
-  const RunFolder folder;
+  const TestFolder folder;
   {
     const Folder held(folder / "out", kHeading, false);
     CHECK_THROWS_WITH(Folder(folder / "out", kHeading, false),

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <string_view>
+#include <thread>
 
 #include "velum/error.hpp"
 
@@ -20,6 +22,9 @@ namespace fs = std::filesystem;
 constexpr const char* kLock = ".velum.lock";
 constexpr std::array<std::string_view, 6> kOurs = {kJournalName,  "study.csv", "study.json",
                                                    "report.html", "cells",     kLock};
+
+constexpr std::chrono::milliseconds kWait{20};
+constexpr int kMostWaits = 100;
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& message,
                          const std::string& hint) {
@@ -62,9 +67,16 @@ void Folder::lock() {
       ::open((path_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
   if (!lock_)
     refuse(path_, "cannot be written: " + files::reason(errno), "choose another folder with --out");
-  if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0)
+  // The cells of a study that was killed share its lock and end a moment after it: what they were
+  // writing must not meet what is written now.
+  for (int waits = 0; ::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0; ++waits) {
+    if (waits < kMostWaits) {
+      std::this_thread::sleep_for(kWait);
+      continue;
+    }
     refuse(path_, "another process is writing to this folder",
            "wait for it, or choose another folder with --out");
+  }
 }
 
 void Folder::refuse_strangers() const {
