@@ -24,15 +24,18 @@ std::uint8_t number_of(const Sensor& sensor, std::vector<Sensor>& sensors) {
   return static_cast<std::uint8_t>(sensors.size() - 1);
 }
 
-VectorXu8 renumbered(const Cloud& cloud, std::vector<Sensor>& sensors) {
+/// Numbers in `sensors` of those that saw the points of `cloud`.
+void renumber(const Cloud& cloud, std::vector<Sensor>& sensors, Eigen::Ref<VectorXu8> to) {
+  constexpr std::size_t kNumbers = 256;  // that a `sensor` column can hold
   std::vector<std::uint8_t> numbers;
   for (const Sensor& sensor : cloud.sensors()) numbers.push_back(number_of(sensor, sensors));
-  VectorXu8 column(cloud.size());
-  for (Index i = 0; i < cloud.size(); ++i) {
-    const auto sensor = cloud.sensor_of(i);
-    column(i) = sensor ? numbers[*sensor] : kNoSensor;
+  numbers.resize(std::max(kNumbers, numbers.size()), kNoSensor);
+  if (!cloud.has(column::kSensor)) {
+    to.setConstant(numbers.front());
+    return;
   }
-  return column;
+  const auto old = cloud.column(column::kSensor).vector<std::uint8_t>();
+  for (Index i = 0; i < old.size(); ++i) to(i) = numbers[old(i)];
 }
 
 /// The column `name` of all clouds; empty when one of them lacks it.
@@ -55,15 +58,10 @@ std::optional<Column> joined(std::span<const Cloud> clouds, const std::string& n
 
 Cloud merged(std::span<const Cloud> clouds) {
   const Cloud& first = clouds.front();
-  Index total = 0;
-  for (const Cloud& cloud : clouds) total += cloud.size();
-  Points positions(3, total);
-  Index at = 0;
-  for (const Cloud& cloud : clouds) {
-    positions.middleCols(at, cloud.size()) = cloud.with_origin(first.origin()).positions();
-    at += cloud.size();
-  }
-  Cloud result(std::move(positions), first.origin());
+  std::vector<Column> positions;
+  for (const Cloud& cloud : clouds)
+    positions.push_back(cloud.with_origin(first.origin()).position_column());
+  Cloud result(Column::concatenate(positions), first.origin());
   for (const auto& [name, column] : first.columns()) {
     if (name == column::kSensor) continue;
     if (auto all = joined(clouds, name)) result = result.with(name, std::move(*all));
@@ -85,7 +83,7 @@ Cloud merge(std::span<const Cloud> clouds) {
   VectorXu8 numbers(result.size());
   Index at = 0;
   for (const Cloud& cloud : clouds) {
-    numbers.segment(at, cloud.size()) = renumbered(cloud, sensors);
+    renumber(cloud, sensors, numbers.segment(at, cloud.size()));
     at += cloud.size();
   }
   if (sensors.empty()) return result.without(column::kSensor);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
+#include <limits>
 #include <velum/stage.hpp>
 
 #include "geometry/selection.hpp"
@@ -7,6 +8,18 @@
 namespace {
 
 enum class Keep { inside, outside };
+
+/// Everywhere, unless bounds are set.
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Eigen::Array3d low = Eigen::Array3d::Constant(-kInfinity);
+  Eigen::Array3d high = Eigen::Array3d::Constant(kInfinity);
+
+  // All six are compared, which is faster than to branch on each where points come in any order.
+  [[nodiscard]] bool holds(const Eigen::Vector3d& place) const {
+    return (place.array() >= low).count() + (place.array() <= high).count() == 6;
+  }
+};
 
 struct RegionOfInterest {
   std::optional<velum::Place> min;
@@ -43,11 +56,13 @@ struct RegionOfInterest {
     for (const velum::Sensor& sensor : cloud.sensors())
       sensors.push_back(sensor.pose.translation());
     const auto positions = cloud.positions();
+    const Box box = box_given();
     std::vector<std::uint8_t> kept(static_cast<std::size_t>(cloud.size()));
     velum::parallel_for(context, cloud.size(), 16384, [&](velum::Index begin, velum::Index end) {
       for (velum::Index i = begin; i < end; ++i) {
         const Eigen::Vector3d place = cloud.origin() + positions.col(i).cast<double>();
-        bool inside = in_box(place) && in_ball(place);
+        bool inside = box.holds(place);
+        if (inside && centre) inside = in_ball(place);
         if (inside && (min_range || max_range))
           inside = in_range((place - sensors[cloud.sensor_of(i).value_or(0)]).norm());
         kept[static_cast<std::size_t>(i)] = inside == (keep == Keep::inside);
@@ -70,12 +85,14 @@ struct RegionOfInterest {
           .hint("use a box or a ball, or a file format that carries the sensor's pose");
   }
   // Borders belong to the region.
-  [[nodiscard]] bool in_box(const Eigen::Vector3d& place) const {
-    return (!min || (place.array() >= min->metres.array()).all()) &&
-           (!max || (place.array() <= max->metres.array()).all());
+  [[nodiscard]] Box box_given() const {
+    Box box;
+    if (min) box.low = min->metres;
+    if (max) box.high = max->metres;
+    return box;
   }
   [[nodiscard]] bool in_ball(const Eigen::Vector3d& place) const {
-    return !centre || (place - centre->metres).norm() <= *radius;
+    return (place - centre->metres).norm() <= *radius;
   }
   [[nodiscard]] bool in_range(double range) const {
     return (!min_range || range >= *min_range) && (!max_range || range <= *max_range);
