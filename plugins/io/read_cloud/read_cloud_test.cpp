@@ -1,38 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <velum/testing.hpp>
 
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 using velum::Cloud;
 using velum::Error;
 using velum::Fault;
+using velum::formats::test::fault_of;
 using velum::formats::test::Folder;
 using velum::formats::test::full_cloud;
+using velum::formats::test::put;
 using velum::test::Stage;
 
 namespace {
 
-std::filesystem::path put(const Folder& folder, const std::string& name, std::string_view text) {
-  velum::write_file(folder / name, text);
-  return folder / name;
-}
-
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.read_cloud");
-  made.set("file", file.string());
-  return made;
-}
-
-Fault fault_of(Stage made) {
-  try {
-    (void)made.run();
-  } catch (const Error& error) {
-    CHECK_FALSE(error.where().empty());
-    return error.fault();
-  }
-  return Fault::device;
+  return velum::formats::test::stage_on("io.read_cloud", file);
 }
 
 }  // namespace

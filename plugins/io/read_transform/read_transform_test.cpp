@@ -2,29 +2,22 @@
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <velum/testing.hpp>
 
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 using velum::Error;
 using velum::Fault;
 using velum::Transform;
 using velum::formats::test::Folder;
+using velum::formats::test::put;
 using velum::test::Stage;
 
 namespace {
 
 const std::string kMotion = "1 0 0 5\n0 0 -1 6\n0 1 0 7\n0 0 0 1\n";
 
-std::filesystem::path put(const Folder& folder, const std::string& name, std::string_view text) {
-  velum::write_file(folder / name, text);
-  return folder / name;
-}
-
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.read_transform");
-  made.set("file", file.string());
-  return made;
+  return velum::formats::test::stage_on("io.read_transform", file);
 }
 
 Transform read(Stage made) {

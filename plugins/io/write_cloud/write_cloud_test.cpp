@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <velum/testing.hpp>
 
 #include "formats/test_faults.hpp"
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 using velum::Cloud;
 using velum::Error;
@@ -18,9 +17,7 @@ using velum::test::Stage;
 namespace {
 
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.write_cloud");
-  made.set("file", file.string());
-  return made;
+  return velum::formats::test::stage_on("io.write_cloud", file);
 }
 
 constexpr const char* kFormats[] = {"pcd", "pcd_ascii", "pcd_compressed", "ply", "ply_ascii", "xyz",

@@ -3,11 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <velum/testing.hpp>
 
 #include "bspline/evaluate.hpp"
 #include "formats/test_faults.hpp"
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 using velum::Error;
 using velum::Index;
@@ -15,6 +14,7 @@ using velum::Mesh;
 using velum::Surface;
 using velum::formats::test::Folder;
 using velum::formats::test::read_mesh_file;
+using velum::formats::test::text_of;
 using velum::test::Stage;
 
 namespace {
@@ -22,9 +22,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.write_surface");
-  made.set("file", file.string());
-  return made;
+  return velum::formats::test::stage_on("io.write_surface", file);
 }
 
 /// z = 0.4 x² over the square [0, 2] × [0, 1] m, exact as a quadratic by linear surface.
@@ -84,10 +82,6 @@ double area_under(const Mesh& mesh) {
         0.5 * (p.col(t(1, i)).cast<double>() - a).cross(p.col(t(2, i)).cast<double>() - a).norm();
   }
   return area;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  return std::string(velum::FileContent(file).text());
 }
 
 bool has(const std::string& text, const std::string& what) {

@@ -1,22 +1,20 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <velum/testing.hpp>
 
 #include "formats/test_faults.hpp"
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 using velum::Error;
 using velum::Table;
 using velum::formats::test::Folder;
+using velum::formats::test::text_of;
 using velum::test::Stage;
 
 namespace {
 
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.write_table");
-  made.set("file", file.string());
-  return made;
+  return velum::formats::test::stage_on("io.write_table", file);
 }
 
 Table sections(int rows) {
@@ -24,10 +22,6 @@ Table sections(int rows) {
   for (int i = 0; i < rows; ++i)
     table.add({0.1 * i, std::int64_t{i}, std::string(i % 2 == 0 ? "even" : "odd, so")});
   return table;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  return std::string(velum::FileContent(path).text());
 }
 
 }  // namespace

@@ -1,24 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <velum/testing.hpp>
 
 #include "formats/test_faults.hpp"
-#include "formats/test_tools.hpp"
+#include "formats/test_stages.hpp"
 
 #include "formats/transform_io.hpp"
 
 using velum::Error;
 using velum::Transform;
 using velum::formats::test::Folder;
+using velum::formats::test::text_of;
 using velum::test::Stage;
 
 namespace {
 
 Stage stage(const std::filesystem::path& file) {
-  Stage made("io.write_transform");
-  made.set("file", file.string());
-  return made;
+  return velum::formats::test::stage_on("io.write_transform", file);
 }
 
 Transform motion() {
@@ -29,10 +27,6 @@ Transform motion() {
   made.source = "scan";
   made.target = "room";
   return made;
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  return std::string(velum::FileContent(path).text());
 }
 
 Transform read(const std::filesystem::path& path) {
