@@ -39,7 +39,7 @@ struct Global {
                "refuse when less than this share of the smaller cloud lies on the other",
                velum::between(0.0, 1.0))
         .param(&Global::min_evidence, "min_evidence",
-               "refuse when another pose has the best one's overlap less this share of it",
+               "refuse when another pose has the best one's evidence less this share of it",
                velum::between(0.0, 1.0))
         .param(&Global::min_matches, "min_matches",
                "refuse when fewer pairs of features than this agree with the pose",

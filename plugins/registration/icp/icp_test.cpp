@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <velum/testing.hpp>
 
 #include "geometry/motion.hpp"
+#include "registration/test_data.hpp"
 
 using velum::Cloud;
 using velum::Index;
@@ -51,27 +48,8 @@ velum::Transform as_transform(const Pose& pose) {
   return transform;
 }
 
-std::filesystem::path shared(const char* below) {
-  const char* folder = std::getenv("VELUM_SHARED");
-  const auto path = std::filesystem::path(folder != nullptr ? folder : "") / below;
-  return std::filesystem::exists(path) ? path : std::filesystem::path();
-}
-
-Cloud read(const std::filesystem::path& file) {
-  return Stage("io.read_cloud").set("file", file.string()).set("units", "m").run().cloud();
-}
-
 Cloud with_normals(const Cloud& cloud) {
   return Stage("features.normals").run(cloud).cloud();
-}
-
-Pose pose_of(const nlohmann::json& rows) {
-  Pose pose = Pose::Identity();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 4; ++c)
-      pose.matrix()(r, c) = rows[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
-  pose.linear() = velum::geometry::orthonormal(pose.linear());
-  return pose;
 }
 
 }  // namespace
@@ -175,16 +153,14 @@ TEST_CASE("a flat target is reported to leave directions free") {
 }
 
 TEST_CASE("bunny scans 000 and 045 come back from 10 degrees and 20 mm") {
-  const auto folder = shared("data/registration/bunny");
-  if (folder.empty()) {
+  const auto pair = velum::registration::test::bunny("000", "045");
+  if (!pair) {
     WARN("skipped: no shared data");
     return;
   }
-  const auto known =
-      nlohmann::json::parse(std::ifstream(folder / "truth.json")).at("world_from_scan");
-  const Pose truth = pose_of(known.at("bun000")).inverse() * pose_of(known.at("bun045"));
-  const Cloud target = with_normals(read(folder / "bun000.ply"));
-  const Cloud source = read(folder / "bun045.ply");
+  const Pose& truth = pair->truth;
+  const Cloud target = with_normals(pair->target);
+  const Cloud& source = pair->source;
   const Eigen::Vector3d middle =
       source.origin() + source.positions().cast<double>().rowwise().mean();
   for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
@@ -209,22 +185,18 @@ TEST_CASE("bunny scans 000 and 045 come back from 10 degrees and 20 mm") {
 }
 
 TEST_CASE("the small_gicp pair is registered from where it is") {
-  const auto folder = shared("data/registration/small_gicp");
-  if (folder.empty()) {
+  const auto pair = velum::registration::test::street();
+  if (!pair) {
     WARN("skipped: no shared data");
     return;
   }
-  const Cloud target = with_normals(read(folder / "target.ply"));
   const auto outcome = Stage("registration.icp")
                            .set("metric", "point_to_plane")
                            .set("max_distance", "1 m")
                            .set("keep", "0.9")
                            .set("relative_change", "1e-4")
-                           .run(read(folder / "source.ply"), target);
-  std::ifstream file(folder / "T_target_source.txt");
-  Pose truth = Pose::Identity();
-  for (int i = 0; i < 16; ++i) file >> truth.matrix()(i / 4, i % 4);
-  const auto miss = velum::geometry::difference(found(outcome), truth);
+                           .run(pair->source, with_normals(pair->target));
+  const auto miss = velum::geometry::difference(found(outcome), pair->truth);
   INFO(miss.rotation / kDegree << " deg, " << miss.translation << " m");
   CHECK(miss.rotation < 0.5 * kDegree);
   CHECK(miss.translation < 0.1);

@@ -14,10 +14,11 @@ bool consistent(const Match& a, const Match& b, const ConsistencyGraph::Limits& 
   const Eigen::Vector3d to = b.to - a.to;
   const double from_length = from.norm();
   const double to_length = to.norm();
-  if (from_length < limits.shortest || to_length < limits.shortest ||
-      std::abs(from_length - to_length) > limits.length)
+  // Written so that what is no number is not consistent with anything.
+  if (!(from_length >= limits.shortest && to_length >= limits.shortest &&
+        std::abs(from_length - to_length) <= limits.length))
     return false;
-  const auto differ = [&](double x, double y) { return std::abs(x - y) > limits.cosine; };
+  const auto differ = [&](double x, double y) { return !(std::abs(x - y) <= limits.cosine); };
   if (differ(a.from_normal.dot(b.from_normal), a.to_normal.dot(b.to_normal)) ||
       differ(a.from_normal.dot(from) / from_length, a.to_normal.dot(to) / to_length) ||
       differ(b.from_normal.dot(from) / from_length, b.to_normal.dot(to) / to_length))

@@ -54,15 +54,22 @@ double Judge::weight(const Near& found) const {
   return std::max(0.0, 1.0 - off * off);
 }
 
+double Judge::rarity(Index source, const Near& found) const {
+  if (found.index < 0) return 0.0;
+  return static_cast<double>(std::min(source_.rarity[static_cast<std::size_t>(source)],
+                                      target_.rarity[static_cast<std::size_t>(found.index)]));
+}
+
 std::vector<float> Judge::borne_out(const Pose& pose) const {
   const auto positions = source_.cloud.positions();
   const auto normals = source_.cloud.normals();
   std::vector<float> weights(static_cast<std::size_t>(positions.cols()));
   parallel_for(context_, positions.cols(), kGrain, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      weights[static_cast<std::size_t>(i)] = static_cast<float>(
-          weight(near(pose * positions.col(i).cast<double>(),
-                      pose.linear() * normals.col(i).cast<double>(), kReach * cell_)));
+    for (Index i = begin; i < end; ++i) {
+      const Near found = near(pose * positions.col(i).cast<double>(),
+                              pose.linear() * normals.col(i).cast<double>(), kReach * cell_);
+      weights[static_cast<std::size_t>(i)] = static_cast<float>(weight(found) * rarity(i, found));
+    }
   });
   return weights;
 }
@@ -70,6 +77,7 @@ std::vector<float> Judge::borne_out(const Pose& pose) const {
 Agreement Judge::agreement(const Pose& pose, Index most) const {
   struct Sum {
     double weight = 0.0;
+    double evidence = 0.0;
     double squares = 0.0;
     Index pairs = 0;
   };
@@ -85,6 +93,7 @@ Agreement Judge::agreement(const Pose& pose, Index most) const {
                pose.linear() * normals.col(i * stride).cast<double>(), kReach * cell_);
       if (found.index < 0) continue;
       sum.weight += weight(found);
+      sum.evidence += weight(found) * rarity(i * stride, found);
       sum.squares += found.distance * found.distance;
       ++sum.pairs;
     }
@@ -93,6 +102,7 @@ Agreement Judge::agreement(const Pose& pose, Index most) const {
   const Sum sum =
       parallel_reduce(context_, count, kGrain, Sum{}, part, [](Sum& total, const Sum& one) {
         total.weight += one.weight;
+        total.evidence += one.evidence;
         total.squares += one.squares;
         total.pairs += one.pairs;
       });
@@ -102,6 +112,7 @@ Agreement Judge::agreement(const Pose& pose, Index most) const {
   const double smaller = std::min(
       1.0, static_cast<double>(target_.cloud.size()) / static_cast<double>(source_.cloud.size()));
   result.share = std::min(1.0, sum.weight / (asked * smaller));
+  result.evidence = sum.evidence / asked;
   result.overlap = static_cast<double>(sum.pairs) / asked;
   result.fitness = sum.pairs > 0 ? sum.squares / static_cast<double>(sum.pairs) : -1.0;
   return result;

@@ -12,6 +12,7 @@ struct Agreement {
   double share = 0.0;    ///< of the smaller cloud that lies on the other, nearness weighted, 0 to 1
   double overlap = 0.0;  ///< of the source that has a point of the target near by
   double fitness = 0.0;  ///< mean squared distance of these [m²]
+  double evidence = 0.0;  ///< as share, of the source, points counted by how rare they look
 };
 
 struct JudgeRefined {
@@ -28,7 +29,7 @@ class Judge {
 
   /// Over at most `most` source points.
   [[nodiscard]] Agreement agreement(const Pose& pose, Index most) const;
-  /// How well each source point lies on the target, 0 to 1: the weights of agreement().share.
+  /// What each source point adds to the evidence, 0 to 1.
   [[nodiscard]] std::vector<float> borne_out(const Pose& pose) const;
   /// Point to plane over at most `most` source points within a distance that shrinks from `first`
   /// to `last` [m], pairs that disagree weighted down.
@@ -43,6 +44,8 @@ class Judge {
   [[nodiscard]] Near near(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
                           double reach) const;
   [[nodiscard]] double weight(const Near& found) const;
+  /// Of a source point that lies on the target: as much as the more common of both is rare.
+  [[nodiscard]] double rarity(Index source, const Near& found) const;
   [[nodiscard]] NormalEquations equations(const Pose& pose, double reach, Index stride,
                                           double& radius, Index& pairs) const;
 

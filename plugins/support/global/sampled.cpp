@@ -15,6 +15,14 @@ namespace velum::registration {
 namespace {
 
 constexpr Index kSignNeighbours = 10;
+/// Each feature is compared with so many of all.
+constexpr Index kReferences = 500;
+/// Features of one kind of surface, sampled at random, differ by some 10 to 30; those of plane,
+/// cylinder, cone and sphere by 90 and more.
+constexpr float kAlike = 50.0F;
+/// What this share of the cloud looks like is rare enough to count in full.
+constexpr float kRare = 0.05F;
+constexpr Index kBlock = 256;
 
 /// How far each feature lies from the mean of all: what most points look like tells nothing.
 std::vector<std::int32_t> least_common(const Eigen::MatrixXf& features, Index most) {
@@ -33,6 +41,31 @@ std::vector<std::int32_t> least_common(const Eigen::MatrixXf& features, Index mo
 }
 
 }  // namespace
+
+std::vector<float> rarity(const Eigen::MatrixXf& fpfh, Context& context) {
+  const Index stride = std::max<Index>(1, fpfh.cols() / kReferences);
+  const Index count = fpfh.cols() == 0 ? 0 : (fpfh.cols() - 1) / stride + 1;
+  Eigen::MatrixXf some(fpfh.rows(), count);
+  for (Index i = 0; i < count; ++i) some.col(i) = fpfh.col(i * stride);
+  const Eigen::MatrixXf mirrored = features::mirrored_fpfh(some);
+  // |f - s|² = |f|² - 2 f·s + |s|², and a mirror image is as long as what it is of.
+  const Eigen::VectorXf lengths = some.colwise().squaredNorm().transpose();
+  std::vector<float> rare(static_cast<std::size_t>(fpfh.cols()), 0.0F);
+  parallel_for(context, fpfh.cols(), kBlock, [&](Index begin, Index end) {
+    const auto block = fpfh.middleCols(begin, end - begin);
+    const Eigen::MatrixXf products =
+        (some.transpose() * block).cwiseMax(mirrored.transpose() * block);
+    for (Index i = begin; i < end; ++i) {
+      const float length = fpfh.col(i).squaredNorm();
+      if (!(length > 0.0F)) continue;
+      const auto alike =
+          ((lengths - 2.0F * products.col(i - begin)).array() + length < kAlike * kAlike).count();
+      const float share = static_cast<float>(alike) / static_cast<float>(count);
+      rare[static_cast<std::size_t>(i)] = kRare / std::max(kRare, share);
+    }
+  });
+  return rare;
+}
 
 void agree_on_sign(const Cloud& cloud, Points& normals, Index neighbours, Context& context) {
   const Index n = cloud.size();
@@ -82,6 +115,7 @@ Sampled sample(const Cloud& cloud, const SampleOptions& options, Context& contex
   const features::Neighbourhood around{{}, options.feature_cells * sampled.cell};
   const Eigen::MatrixXf all = options.full ? features::pfh(sampled.cloud, around, context)
                                            : features::fpfh(sampled.cloud, around, context);
+  if (!options.full) sampled.rarity = rarity(all, context);
   sampled.keys = least_common(all, options.keys);
   sampled.features.resize(all.rows(), static_cast<Index>(sampled.keys.size()));
   for (std::size_t i = 0; i < sampled.keys.size(); ++i)

@@ -16,6 +16,7 @@ struct Sampled {
   Eigen::MatrixXf features;        ///< a column for each key
   std::vector<std::int32_t> keys;  ///< points whose surroundings are least common
   double cell = 0.0;               ///< [m]
+  std::vector<float> rarity;       ///< of each point, as rarity() has it; none with PFH
 };
 
 struct SampleOptions {
@@ -27,6 +28,10 @@ struct SampleOptions {
 };
 
 Sampled sample(const Cloud& cloud, const SampleOptions& options, Context& context);
+
+/// How much each of FPFH's columns tells: the inverse of the share of all columns that look like it
+/// from either side, 1 where these are few. A floor lies on a floor in many ways.
+std::vector<float> rarity(const Eigen::MatrixXf& fpfh, Context& context);
 
 /// Turns normals so that neighbours agree, starting at each sheet's least curved point: the sign
 /// that a sensor would give is lost where nobody says where it stood. `neighbours` of each point.

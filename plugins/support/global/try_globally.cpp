@@ -66,7 +66,7 @@ class Attempt {
   static void sort(std::vector<GlobalCandidate>& candidates) {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const GlobalCandidate& a, const GlobalCandidate& b) {
-                       return a.seen.share > b.seen.share;
+                       return a.seen.evidence > b.seen.evidence;
                      });
   }
 
@@ -126,8 +126,8 @@ class Attempt {
         });
     result_.gap = 1.0;
     result_.dominance = 1.0;
-    if (next == candidates.end() || !(best.seen.share > 0.0)) return;
-    result_.gap = 1.0 - next->seen.share / best.seen.share;
+    if (next == candidates.end() || !(best.seen.evidence > 0.0)) return;
+    result_.gap = 1.0 - next->seen.evidence / best.seen.evidence;
     const std::vector<float> a = judge.borne_out(best.pose);
     const std::vector<float> b = judge.borne_out(next->pose);
     double only_best = 0.0;
