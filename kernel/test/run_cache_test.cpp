@@ -9,8 +9,9 @@
 
 namespace fs = std::filesystem;
 using namespace velum;
+using test::Folder;
+using test::replaced;
 using test::run_text;
-using test::RunFolder;
 
 namespace {
 
@@ -32,14 +33,10 @@ in = "b"
 file = "n.txt"
 )";
 
-run::RunOptions cached_options(const RunFolder& folder) {
+run::RunOptions cached_options(const Folder& folder) {
   run::RunOptions options = test::options_for(folder);
   options.cache = folder / "cache";
   return options;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
 }
 
 std::vector<fs::path> files_in(const fs::path& folder) {
@@ -59,7 +56,7 @@ void damage(const fs::path& file) {
 }  // namespace
 
 TEST_CASE("a second run takes from the cache; writers run again", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   const auto first = run_text(folder, kChain, options);
   CHECK(test::statuses(first) == "start=ok a=ok b=ok file=ok");
@@ -77,7 +74,7 @@ TEST_CASE("a second run takes from the cache; writers run again", "[cache]") {
 }
 
 TEST_CASE("only what follows a change runs again", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   run_text(folder, kChain, options);
   const auto changed =
@@ -93,11 +90,9 @@ TEST_CASE("only what follows a change runs again", "[cache]") {
 }
 
 TEST_CASE("the name of a node counts for seeded stages only", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
-  const std::string text = R"(
-[node.start]
-use = "test.numbers"
+  const std::string text = test::kStart + R"(
 [node.a]
 use = "test.move"
 in = "start"
@@ -108,7 +103,7 @@ in = "start"
 }
 
 TEST_CASE("what must not come from the cache does not", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   const std::string text = R"(
 [node.dice]
@@ -129,7 +124,7 @@ in = "start"
 }
 
 TEST_CASE("input files count by content and name, not by place", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   folder.write("n.txt", "7");
   folder.write("elsewhere/n.txt", "7");
@@ -144,7 +139,7 @@ TEST_CASE("input files count by content and name, not by place", "[cache]") {
 }
 
 TEST_CASE("a damaged result is computed again", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   const auto first = run_text(folder, kChain, options);
   for (const fs::path& file : files_in(folder / "cache")) {
@@ -162,7 +157,7 @@ TEST_CASE("a damaged result is computed again", "[cache]") {
 }
 
 TEST_CASE("a missing value behind cached nodes is made from what it needs", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto options = cached_options(folder);
   run_text(folder, kChain, options);
   fs::remove_all(folder / "cache/values");
@@ -170,7 +165,7 @@ TEST_CASE("a missing value behind cached nodes is made from what it needs", "[ca
 }
 
 TEST_CASE("the cache stays within its size", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   auto options = cached_options(folder);
   options.cache_limit = 100'000;
   for (int count = 1000; count < 1010; ++count)
@@ -185,7 +180,7 @@ TEST_CASE("the cache stays within its size", "[cache]") {
 }
 
 TEST_CASE("a cache that cannot be written costs time only", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   auto options = test::options_for(folder);
   options.cache = folder.write("file", "no folder") / "cache";
   const auto record = run_text(folder, kChain, options);
@@ -193,7 +188,7 @@ TEST_CASE("a cache that cannot be written costs time only", "[cache]") {
 }
 
 TEST_CASE("runs share a cache at once", "[cache]") {
-  const RunFolder folder;
+  const Folder folder;
   std::vector<std::thread> threads;
   std::vector<std::string> hashes(6);
   for (std::size_t i = 0; i < hashes.size(); ++i)

@@ -3,14 +3,13 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "run_support.hpp"
 
-namespace fs = std::filesystem;
 using namespace velum;
+using test::Folder;
+using test::kStart;
 using test::run_text;
-using test::RunFolder;
 
 namespace {
 
@@ -31,14 +30,10 @@ use = "test.numbers"
 count = 500
 )";
 
-double seconds_since(std::chrono::steady_clock::time_point began) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-}
-
 }  // namespace
 
 TEST_CASE("every node runs once, whatever the order in the file", "[executor]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto record = run_text(folder, kDiamond);
   CHECK(record.status == run::Status::ok);
   CHECK(record.nodes.size() == 4);
@@ -53,7 +48,7 @@ TEST_CASE("every node runs once, whatever the order in the file", "[executor]") 
 TEST_CASE("results do not depend on the number of threads", "[executor]") {
   std::vector<std::string> hashes;
   for (const int threads : {1, 2, 4}) {
-    const RunFolder folder;
+    const Folder folder;
     auto options = test::options_for(folder);
     options.threads = threads;
     hashes.push_back(test::hash_of_node(run_text(folder, kDiamond, options), "end"));
@@ -63,10 +58,8 @@ TEST_CASE("results do not depend on the number of threads", "[executor]") {
 }
 
 TEST_CASE("ready nodes run at the same time", "[executor]") {
-  const RunFolder folder;
-  const std::string text = R"(
-[node.start]
-use = "test.numbers"
+  const Folder folder;
+  const std::string text = kStart + R"(
 [node.a]
 use = "test.slow"
 in = "start"
@@ -78,7 +71,7 @@ time = "0.3 s"
 )";
   const auto began = std::chrono::steady_clock::now();
   const auto record = run_text(folder, text);
-  CHECK(seconds_since(began) < 0.55);
+  CHECK(test::seconds_since(began) < 0.55);
   // What overlapped cannot be told apart; what ran alone can.
   CHECK_FALSE(test::node_of(record, "a").cpu_seconds);
   CHECK_FALSE(test::node_of(record, "b").peak_bytes);
@@ -87,7 +80,7 @@ time = "0.3 s"
 }
 
 TEST_CASE("relative lengths are resolved and recorded", "[executor]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto record = run_text(folder, kDiamond);
   const double by = test::node_of(record, "left").parameters.at("by").get<double>();
   CHECK(by > 0.01);
@@ -96,9 +89,7 @@ TEST_CASE("relative lengths are resolved and recorded", "[executor]") {
   CHECK(test::node_of(record, "right").parameters.at("by") == 0.25);
   CHECK(test::node_of(record, "right").parameters.at("talk") == false);
 
-  const auto failed = run_text(folder, R"(
-[node.start]
-use = "test.numbers"
+  const auto failed = run_text(folder, kStart + R"(
 [node.far]
 use = "test.move"
 in = "start"
@@ -110,7 +101,7 @@ by = "2000 % diagonal"
 }
 
 TEST_CASE("inputs of one call have one origin", "[executor]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto record = run_text(folder, R"(
 [node.a]
 use = "test.numbers"
@@ -136,7 +127,7 @@ use = "test.numbers"
 use = "test.numbers"
 seed = 9
 )";
-  const RunFolder folder;
+  const Folder folder;
   auto options = test::options_for(folder);
   const auto one = run_text(folder, text, options);
   options.seed = 2;
@@ -146,159 +137,14 @@ seed = 9
   CHECK(test::hash_of_node(one, "c") == test::hash_of_node(two, "c"));
 }
 
-TEST_CASE("what a stage throws names node and stage", "[executor]") {
-  const std::vector<std::pair<std::string, std::string>> kinds = {
-      {"error", "three points are too few"},
-      {"input", "found 3 columns"},
-      {"device", "no answer"},
-      {"standard", "matrix is singular"},
-      {"own", "not a std::exception"},
-      {"integer", "not a std::exception"},
-      {"memory", "out of memory"}};
-  for (const auto& [what, message] : kinds) {
-    const RunFolder folder;
-    const auto record = run_text(folder, R"(
-[node.start]
-use = "test.numbers"
-[node.bad]
-use = "test.throws"
-in = "start"
-what = ")" + what + "\"\n");
-    INFO(what);
-    REQUIRE(record.failure);
-    CHECK(record.status == run::Status::failed);
-    CHECK(record.failure->node == "bad");
-    CHECK(record.failure->stage == "test.throws");
-    CHECK(record.failure->message.find(message) != std::string::npos);
-    const int status = what == "input" ? 5 : what == "device" ? 7 : 1;
-    CHECK(run::exit_status(record) == status);
-    CHECK(run::format(*record.failure).find("'bad' (test.throws)") != std::string::npos);
-  }
-}
-
-TEST_CASE("a failure skips what depends on it, and nothing else", "[executor]") {
-  const RunFolder folder;
-  const auto record = run_text(folder, R"(
-[node.start]
-use = "test.numbers"
-[node.bad]
-use = "test.throws"
-in = "start"
-[node.after]
-use = "test.move"
-in = "bad"
-[node.later]
-use = "test.write"
-in = "after"
-file = "later.txt"
-[node.other]
-use = "test.move"
-in = "start"
-[node.kept]
-use = "test.write"
-in = "other"
-file = "kept.txt"
-)");
-  const std::string expected = "start=ok bad=failed after=skipped later=skipped other=ok kept=ok";
-  std::string text = test::statuses(record);
-  for (const std::string word :
-       {"start=ok", "bad=failed", "after=skipped", "later=skipped", "other=ok", "kept=ok"})
-    CHECK(text.find(word) != std::string::npos);
-  CHECK(folder.read("out/kept.txt") == "100\n");
-  CHECK_FALSE(fs::exists(folder / "out/later.txt"));
-  CHECK(record.files.size() == 1);
-}
-
-TEST_CASE("an empty result is an error that tells who removed the points", "[executor]") {
-  const RunFolder folder;
-  const std::string graph = R"(
-[node.start]
-use = "test.numbers"
-[node.low]
-use = "test.drop"
-in = "start"
-above = "-1 m"
-[node.moved]
-use = "test.move"
-in = "low"
-)";
-  const auto record = run_text(folder, graph);
-  REQUIRE(record.failure);
-  CHECK(record.failure->code == "E1002");
-  CHECK(record.failure->node == "low");
-  CHECK(record.failure->message.find("100 points") != std::string::npos);
-  CHECK(run::exit_status(record) == 1);
-
-  std::string allowed = graph;
-  allowed.replace(allowed.find("above ="), 0, "allow_empty = true\n");
-  const auto later = run_text(folder, allowed);
-  REQUIRE(later.failure);
-  CHECK(later.failure->node == "moved");
-  CHECK(later.failure->message.find("'low' (test.drop) was given 100 points") != std::string::npos);
-}
-
-TEST_CASE("an output that was not made fails the node that needs it", "[executor]") {
-  const RunFolder folder;
-  const std::string text = R"(
-[node.start]
-use = "test.numbers"
-[node.both]
-use = "test.join"
-in = ["start"]
-count = COUNT
-[node.rows]
-use = "test.count"
-in = "both.table"
-)";
-  auto with = [&](const std::string& count) {
-    std::string graph = text;
-    return graph.replace(graph.find("COUNT"), 5, count);
-  };
-  const auto failed = run_text(folder, with("false"));
-  REQUIRE(failed.failure);
-  CHECK(failed.failure->message.find("'both' made no 'table'") != std::string::npos);
-  const auto made = run_text(folder, with("true"));
-  CHECK(made.status == run::Status::ok);
-  CHECK(test::node_of(made, "rows").measures.at("rows").value == 1.0);
-}
-
 TEST_CASE("only a node and what it needs", "[executor]") {
-  const RunFolder folder;
+  const Folder folder;
   auto options = test::options_for(folder);
   options.only = {"left"};
   const auto record = run_text(folder, kDiamond, options);
   CHECK(test::statuses(record) == "start=ok left=ok");
   options.only = {"nowhere"};
   CHECK_THROWS_AS(run_text(folder, kDiamond, options), Error);
-}
-
-TEST_CASE("an interruption ends stages that listen", "[executor]") {
-  const RunFolder folder;
-  std::atomic<bool> cancel = false;
-  auto options = test::options_for(folder);
-  options.cancel = &cancel;
-  std::thread interrupter([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    cancel = true;
-  });
-  const auto began = std::chrono::steady_clock::now();
-  const auto record = run_text(folder, R"(
-[node.start]
-use = "test.numbers"
-[node.slow]
-use = "test.slow"
-in = "start"
-time = "30 s"
-[node.after]
-use = "test.move"
-in = "slow"
-)",
-                               options);
-  interrupter.join();
-  CHECK(seconds_since(began) < 1.5);
-  CHECK(record.status == run::Status::interrupted);
-  CHECK(test::statuses(record) == "start=ok slow=interrupted after=skipped");
-  CHECK(run::exit_status(record) == 130);
 }
 
 TEST_CASE("what stages say reaches observer and record", "[executor]") {
@@ -315,10 +161,8 @@ TEST_CASE("what stages say reaches observer and record", "[executor]") {
     void node_ended(const run::NodeRecord& node) override { heard.push_back("-" + node.name); }
     void file_written(const run::FileRecord& file) override { heard.push_back("> " + file.path); }
   } listener;
-  const RunFolder folder;
-  const auto graph = test::load(folder, R"(
-[node.start]
-use = "test.numbers"
+  const Folder folder;
+  const auto graph = test::load(folder, kStart + R"(
 [node.a]
 use = "test.move"
 in = "start"
@@ -344,7 +188,7 @@ TEST_CASE("a node costs the kernel microseconds", "[executor]") {
   for (int i = 1; i < kNodes; ++i)
     text += "[node.n" + std::to_string(i) + "]\nuse = \"test.move\"\nin = \"n" +
             std::to_string(i - 1) + "\"\n";
-  const RunFolder folder;
+  const Folder folder;
   const auto graph = test::load(folder, text);
   run::Observer nobody;
   double best = 1.0;

@@ -3,21 +3,18 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "run_support.hpp"
 
 namespace fs = std::filesystem;
 using namespace velum;
+using test::Folder;
 using test::run_text;
-using test::RunFolder;
 
 namespace {
 
 std::string graph_of(const std::string& how, const std::string& more = "") {
-  return R"(
-[node.start]
-use = "test.numbers"
+  return test::kStart + R"(
 [node.bad]
 use = "test.crash"
 in = "start"
@@ -31,7 +28,7 @@ in = "start"
 }
 
 run::Failure failure_of(const std::string& text) {
-  const RunFolder folder;
+  const Folder folder;
   const auto record = run_text(folder, text);
   REQUIRE(record.failure);
   CHECK(record.failure->node == "bad");
@@ -44,7 +41,7 @@ run::Failure failure_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("an isolated stage gives what it gives in the process", "[isolate]") {
-  const RunFolder folder;
+  const Folder folder;
   const auto record = run_text(folder, graph_of("not_at_all"));
   REQUIRE(record.status == run::Status::ok);
   const auto& node = test::node_of(record, "bad");
@@ -69,12 +66,12 @@ ISOLATE
 )";
   std::string isolated = text;
   std::string plain = text;
-  for (std::size_t at = 0; (at = isolated.find("ISOLATE")) != std::string::npos;)
-    isolated.replace(at, 7, "isolate = true");
-  for (std::size_t at = 0; (at = plain.find("ISOLATE")) != std::string::npos;)
-    plain.replace(at, 7, "");
-  const RunFolder one;
-  const RunFolder two;
+  for (int node = 0; node < 2; ++node) {
+    isolated = test::replaced(isolated, "ISOLATE", "isolate = true");
+    plain = test::replaced(plain, "ISOLATE", "");
+  }
+  const Folder one;
+  const Folder two;
   const auto a = run_text(one, isolated);
   const auto b = run_text(two, plain);
   CHECK(a.status == run::Status::ok);
@@ -97,7 +94,7 @@ TEST_CASE("limits on time and memory hold", "[isolate]") {
   const auto began = std::chrono::steady_clock::now();
   const auto slow = failure_of(graph_of("endless", "limits = { time = \"0.5 s\" }\n"));
   CHECK(slow.code == "E1004");
-  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(3));
+  CHECK(test::seconds_since(began) < 3.0);
 #ifndef VELUM_SANITIZED
   const auto big =
       failure_of(graph_of("memory", "limits = { memory = \"200 MB\", time = \"60 s\" }\n"));
@@ -106,10 +103,8 @@ TEST_CASE("limits on time and memory hold", "[isolate]") {
 }
 
 TEST_CASE("errors come back from the child as they are", "[isolate]") {
-  const RunFolder folder;
-  const auto record = run_text(folder, R"(
-[node.start]
-use = "test.numbers"
+  const Folder folder;
+  const auto record = run_text(folder, test::kStart + R"(
 [node.bad]
 use = "test.throws"
 in = "start"
@@ -123,17 +118,10 @@ isolate = true
 }
 
 TEST_CASE("an interruption ends an isolated stage in time", "[isolate]") {
-  const RunFolder folder;
-  std::atomic<bool> cancel = false;
-  auto options = test::options_for(folder);
-  options.cancel = &cancel;
-  std::thread interrupter([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    cancel = true;
-  });
+  const Folder folder;
   const auto began = std::chrono::steady_clock::now();
-  const auto record = run_text(folder, graph_of("endless"), options);
-  interrupter.join();
-  CHECK(std::chrono::steady_clock::now() - began < std::chrono::milliseconds(2000));
+  const auto record =
+      test::run_interrupted(folder, graph_of("endless"), std::chrono::milliseconds(500));
+  CHECK(test::seconds_since(began) < 2.0);
   CHECK(test::node_of(record, "bad").status == run::Status::interrupted);
 }

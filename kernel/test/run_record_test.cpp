@@ -14,8 +14,8 @@
 namespace fs = std::filesystem;
 using namespace velum;
 using run::Json;
+using test::Folder;
 using test::run_text;
-using test::RunFolder;
 
 namespace {
 
@@ -42,7 +42,7 @@ std::string refusal(const fs::path& out, const std::string& graph) {
 }  // namespace
 
 TEST_CASE("the record has everything that is promised", "[record]") {
-  const RunFolder folder;
+  const Folder folder;
   run_text(folder, kSmall);
   const Json record = Json::parse(folder.read("out/run.json"));
   for (const char* key : {"velum", "graph", "status", "started", "seconds", "cpu_seconds",
@@ -72,7 +72,7 @@ TEST_CASE("the record has everything that is promised", "[record]") {
 }
 
 TEST_CASE("a failed run has a record too", "[record]") {
-  const RunFolder folder;
+  const Folder folder;
   folder.write("many.txt", "lots\n");
   run_text(folder, "[node.in]\nuse = \"test.read\"\nfile = \"many.txt\"\n");
   const Json record = Json::parse(folder.read("out/run.json"));
@@ -137,7 +137,7 @@ TEST_CASE("summaries in words", "[record]") {
 }
 
 TEST_CASE("earlier files of the same graph are replaced", "[output]") {
-  const RunFolder folder;
+  const Folder folder;
   run_text(folder, kSmall);
   std::string other = kSmall;
   other.replace(other.find("sub/n.txt"), 9, "m.txt");
@@ -148,7 +148,7 @@ TEST_CASE("earlier files of the same graph are replaced", "[output]") {
 }
 
 TEST_CASE("a folder with anything else is refused, and left as it was", "[output]") {
-  const RunFolder folder;
+  const Folder folder;
   run_text(folder, kSmall);
   folder.write("out/notes.txt", "mine");
   CHECK(refusal(folder / "out", run::graph_name(folder / "g.toml")).find("notes.txt") !=
@@ -167,7 +167,7 @@ TEST_CASE("a folder with anything else is refused, and left as it was", "[output
 }
 
 TEST_CASE("records that name files elsewhere harm nobody", "[output]") {
-  const RunFolder folder;
+  const Folder folder;
   folder.write("precious.txt", "mine");
   folder.write(
       "out/run.json",
@@ -180,14 +180,14 @@ TEST_CASE("records that name files elsewhere harm nobody", "[output]") {
 }
 
 TEST_CASE("two runs do not write to one folder", "[output]") {
-  const RunFolder folder;
+  const Folder folder;
   const run::OutputFolder first(folder / "out", "g", {"a.txt"});
   CHECK(refusal(folder / "out", "g").find("process " + std::to_string(::getpid())) !=
         std::string::npos);
 }
 
 TEST_CASE("what a killed run left is known", "[output]") {
-  const RunFolder folder;
+  const Folder folder;
   folder.write("out/.velum.lock", "1\ng\nrun.json\na.txt\n");
   folder.write("out/a.txt", "half");
   folder.write("out/.b.txt.partial.99", "half");
@@ -199,7 +199,7 @@ TEST_CASE("what a killed run left is known", "[output]") {
 }
 
 TEST_CASE("comparing records", "[record]") {
-  const RunFolder folder;
+  const Folder folder;
   run_text(folder, kSmall);
   const Json before = Json::parse(folder.read("out/run.json"));
   auto options = test::options_for(folder);

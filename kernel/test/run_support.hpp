@@ -2,54 +2,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include <unistd.h>
-
+#include "folder.hpp"
 #include "graph/graph.hpp"
 #include "run/run.hpp"
 
-/// Runs of graphs of the stages in test_plugins/, in a folder that is gone after the test.
+/// Runs of graphs of the stages in test_plugins/.
 namespace velum::test {
-
-class RunFolder {
- public:
-  RunFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "velum-run-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~RunFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-  }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path_ / name, std::ios::binary).rdbuf();
-    return text.str();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline plugins::Registry& registry() {
   static plugins::Registry stages(plugins::Registry::Trust::open,
@@ -57,14 +23,22 @@ inline plugins::Registry& registry() {
   return stages;
 }
 
-inline graph::Graph load(const RunFolder& folder, const std::string& text) {
+inline graph::Graph load(const Folder& folder, const std::string& text) {
   graph::Loaded loaded =
       graph::load_text("units = \"m\"\n" + text, folder / "g.toml", {}, registry());
   if (!loaded.graph) throw std::runtime_error(graph::format(loaded.diagnostics));
   return std::move(*loaded.graph);
 }
 
-inline run::RunOptions options_for(const RunFolder& folder) {
+/// A node that most of these graphs begin with: 100 points.
+inline const std::string kStart = "[node.start]\nuse = \"test.numbers\"\n";
+
+/// The text with the first `from` replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+inline run::RunOptions options_for(const Folder& folder) {
   run::RunOptions options;
   options.out = folder / "out";
   options.threads = 2;
@@ -72,13 +46,30 @@ inline run::RunOptions options_for(const RunFolder& folder) {
 }
 
 /// Runs into <folder>/out.
-inline run::RunRecord run_text(const RunFolder& folder, const std::string& text,
+inline run::RunRecord run_text(const Folder& folder, const std::string& text,
                                const run::RunOptions& options) {
   run::Observer nobody;
   return run::run_graph(load(folder, text), registry(), options, nobody).record;
 }
-inline run::RunRecord run_text(const RunFolder& folder, const std::string& text) {
+inline run::RunRecord run_text(const Folder& folder, const std::string& text) {
   return run_text(folder, text, options_for(folder));
+}
+
+inline double seconds_since(std::chrono::steady_clock::time_point began) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+/// The run, interrupted after `wait`.
+inline run::RunRecord run_interrupted(const Folder& folder, const std::string& text,
+                                      std::chrono::milliseconds wait) {
+  std::atomic<bool> cancel = false;
+  run::RunOptions options = options_for(folder);
+  options.cancel = &cancel;
+  const std::jthread interrupter([&] {
+    std::this_thread::sleep_for(wait);
+    cancel = true;
+  });
+  return run_text(folder, text, options);
 }
 
 inline const run::NodeRecord& node_of(const run::RunRecord& record, const std::string& name) {

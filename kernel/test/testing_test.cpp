@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
+#include "error_of.hpp"
 #include "testing/sound.hpp"
 #include "testing/specimens.hpp"
 #include "velum/testing.hpp"
@@ -28,18 +29,6 @@ Cloud small_cloud() {
   return cloud;
 }
 
-/// The error with which `attempt` ends.
-template <class Attempt>
-Error error_of(const Attempt& attempt) {
-  try {
-    attempt();
-  } catch (const Error& error) {
-    return error;
-  }
-  FAIL("no error");
-  throw std::logic_error("unreachable");
-}
-
 }  // namespace
 
 TEST_CASE("test::Stage runs one stage as the kernel would") {
@@ -52,7 +41,7 @@ TEST_CASE("test::Stage runs one stage as the kernel would") {
   CHECK(test::Stage("bad.sound").set("size", "2 spacing").run(small_cloud()).measure("size") ==
         Approx(2 * spacing));
 
-  const auto fault = [](auto&& attempt) { return error_of(attempt).fault(); };
+  const auto fault = [](auto&& attempt) { return test::error_of(attempt).fault(); };
   CHECK(fault([] { test::Stage("bad.sound").set("sice", "5 mm"); }) == Fault::graph);
   CHECK(fault([] { test::Stage("bad.sound").set("size", "five"); }) == Fault::graph);
   CHECK(fault([] { test::Stage("bad.sound").set("size", "-5 mm"); }) == Fault::graph);
@@ -63,7 +52,7 @@ TEST_CASE("test::Stage runs one stage as the kernel would") {
           test::Stage("bad.sound").in_many({small_cloud(), small_cloud()}).run();
         }) == Fault::graph);
   const Error asked =
-      error_of([] { test::Stage("bad.sound").set("fail", "true").run(small_cloud()); });
+      test::error_of([] { test::Stage("bad.sound").set("fail", "true").run(small_cloud()); });
   CHECK(asked.fault() == Fault::input);
   CHECK(asked.where() == "here:1");
 }
