@@ -10,7 +10,7 @@ namespace velum::geometry {
 /// Describes the parameters of a stage that grows regions over normals and curvature: `neighbours`,
 /// `smoothness`, `curvature`, `min_size` and `max_size`.
 template <class Stage>
-About<Stage>& add_growing(About<Stage>& about) {
+AboutStage& add_growing(About<Stage>& about) {
   return about
       .param(&Stage::neighbours, "neighbours",
              "nearest points to which a region may grow from a seed, the seed among them",
