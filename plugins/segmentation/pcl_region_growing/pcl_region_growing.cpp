@@ -9,6 +9,7 @@
 #include <numbers>
 #include <velum/stage.hpp>
 
+#include "geometry/growing_parameters.hpp"
 #include "pcl/clouds.hpp"
 #include "shapes/table.hpp"
 
@@ -24,23 +25,12 @@ struct PclRegionGrowing {
   std::optional<int> max_size;
 
   static auto about() {
-    return velum::About<PclRegionGrowing>("Smooth regions by PCL's region growing.")
-        .in("cloud")
+    velum::About<PclRegionGrowing> about("Smooth regions by PCL's region growing.");
+    about.in("cloud")
         .needs("cloud", "normals")
         .needs("cloud", "curvature")
-        .out("clusters", "numbered from the largest to the smallest")
-        .param(&PclRegionGrowing::neighbours, "neighbours",
-               "nearest points to which a region may grow from a seed, the seed among them",
-               velum::at_least(2))
-        .param(&PclRegionGrowing::smoothness, "smoothness",
-               "θ_th: greatest angle between the normals of a seed and a point that joins",
-               velum::between(0.0, std::numbers::pi / 2))
-        .param(&PclRegionGrowing::curvature, "curvature",
-               "c_th: points below it become seeds themselves", velum::above(0.0))
-        .param(&PclRegionGrowing::min_size, "min_size", "N_min: smaller regions are refused",
-               velum::at_least(1))
-        .param(&PclRegionGrowing::max_size, "max_size",
-               "N_max: larger regions are refused; unset: none is", velum::at_least(1))
+        .out("clusters", "numbered from the largest to the smallest");
+    return velum::geometry::add_growing(about)
         .deterministic()
         .reference("Point Cloud Library, pcl::RegionGrowing")
         .reference("thesis 3.3.3: Algorithm 3.5");

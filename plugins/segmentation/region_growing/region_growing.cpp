@@ -9,6 +9,7 @@
 #include <velum/stage.hpp>
 
 #include "geometry/eigen3.hpp"
+#include "geometry/growing_parameters.hpp"
 #include "geometry/moments.hpp"
 
 namespace {
@@ -96,23 +97,12 @@ struct RegionGrowing {
   std::optional<int> max_size;
 
   static auto about() {
-    return velum::About<RegionGrowing>("Smooth regions, grown over normals and curvature.")
-        .in("cloud")
+    velum::About<RegionGrowing> about("Smooth regions, grown over normals and curvature.");
+    about.in("cloud")
         .needs("cloud", "normals")
         .needs("cloud", "curvature")
-        .out("clusters", "numbered from the largest to the smallest")
-        .param(&RegionGrowing::neighbours, "neighbours",
-               "nearest points to which a region may grow from a seed, the seed among them",
-               velum::at_least(2))
-        .param(&RegionGrowing::smoothness, "smoothness",
-               "θ_th: greatest angle between the normals of a seed and a point that joins",
-               velum::between(0.0, std::numbers::pi / 2))
-        .param(&RegionGrowing::curvature, "curvature",
-               "c_th: points below it become seeds themselves; above 1/3 all do", velum::above(0.0))
-        .param(&RegionGrowing::min_size, "min_size", "N_min: smaller regions are refused",
-               velum::at_least(1))
-        .param(&RegionGrowing::max_size, "max_size",
-               "N_max: larger regions are refused; unset: none is", velum::at_least(1))
+        .out("clusters", "numbered from the largest to the smallest");
+    return velum::geometry::add_growing(about)
         .deterministic()
         .reference("thesis 3.3.3: Algorithm 3.5, tables 3.28 and 3.29")
         .reference(
