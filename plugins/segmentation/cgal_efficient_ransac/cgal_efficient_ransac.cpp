@@ -12,7 +12,7 @@
 #include <tuple>
 #include <velum/stage.hpp>
 
-#include "geometry/normals.hpp"
+#include "shapes/parameters.hpp"
 #include "shapes/table.hpp"
 
 namespace {
@@ -68,9 +68,9 @@ struct CgalEfficientRansac {
   double overlook = 0.01;
 
   static auto about() {
-    return velum::About<CgalEfficientRansac>(
-               "Planes, spheres, cylinders and cones by CGAL's efficient RANSAC.")
-        .in("cloud")
+    velum::About<CgalEfficientRansac> about(
+        "Planes, spheres, cylinders and cones by CGAL's efficient RANSAC.");
+    about.in("cloud")
         .needs("cloud", "normals")
         .out("clusters", "numbered from the largest to the smallest")
         .choice(&CgalEfficientRansac::model, "model", "which shapes are sought",
@@ -78,17 +78,8 @@ struct CgalEfficientRansac {
                  {"plane", Model::plane, "planes only"},
                  {"sphere", Model::sphere, "spheres only"},
                  {"cylinder", Model::cylinder, "cylinders only"},
-                 {"cone", Model::cone, "cones only"}})
-        .param(&CgalEfficientRansac::epsilon, "epsilon",
-               "greatest distance of a point from its shape; unset: six times the cloud's noise, "
-               "at least a tenth of its spacing",
-               velum::above(0.0))
-        .param(&CgalEfficientRansac::angle, "angle",
-               "greatest angle between a point's normal and the shape's",
-               velum::between(0.01, std::numbers::pi / 2))
-        .param(&CgalEfficientRansac::min_size, "min_size",
-               "fewer points make no shape; unset: 1 % of the cloud, at least 50",
-               velum::at_least(6))
+                 {"cone", Model::cone, "cones only"}});
+    return velum::shapes::add_tolerances(about)
         .param(&CgalEfficientRansac::gap, "gap",
                "cells of the map in which a shape's points must hang together", velum::above(0.0))
         .param(&CgalEfficientRansac::overlook, "overlook", "chance of missing the largest shape",
@@ -106,24 +97,18 @@ struct CgalEfficientRansac {
   velum::Clusters operator()(const velum::Cloud& cloud, velum::Context& context) const {
     Detector::Parameters parameters;
     parameters.probability = overlook;
-    parameters.min_points = static_cast<std::size_t>(
-        min_size.value_or(std::max(50, static_cast<int>(cloud.size() / 100))));
-    parameters.epsilon = epsilon ? epsilon->value
-                                 : std::max({6.0 * velum::geometry::estimate_noise(cloud, context),
-                                             0.1 * cloud.spacing(), 1e-6 * cloud.diagonal()});
+    const int least = velum::shapes::least_points(min_size, cloud);
+    parameters.min_points = static_cast<std::size_t>(least);
+    parameters.epsilon = velum::shapes::tolerance(epsilon, cloud, context);
     parameters.cluster_epsilon = std::max(gap.value, parameters.epsilon);
     parameters.normal_threshold = std::cos(angle);
-    context.measure("epsilon", parameters.epsilon, "m");
     velum::shapes::Labelled found{Eigen::VectorXi::Constant(cloud.size(), -1), {}, {}};
     // CGAL's octree never ends on points that are all in one place.
-    if (cloud.size() >= static_cast<velum::Index>(parameters.min_points) && cloud.diagonal() > 0.0)
-      detect(cloud, parameters, found, context);
+    if (cloud.size() >= least && cloud.diagonal() > 0.0) detect(cloud, parameters, found, context);
     velum::shapes::keep_sizes(found, 1, cloud.size());
     velum::Clusters clusters = velum::shapes::clusters_of(cloud, std::move(found), context);
     velum::shapes::measure(clusters, context);
-    if (clusters.kinds.empty() && !cloud.empty())
-      context.warn(fmt::format("no shape of {} points (min_size) lies within {:.3g} m (epsilon)",
-                               parameters.min_points, parameters.epsilon));
+    velum::shapes::warn_of_nothing(clusters, "shape", least, parameters.epsilon, context);
     return clusters;
   }
 

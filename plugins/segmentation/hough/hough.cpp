@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "shapes/hough.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
 #include <velum/stage.hpp>
 
-#include "geometry/normals.hpp"
+#include "shapes/parameters.hpp"
 #include "shapes/table.hpp"
 
 namespace {
@@ -29,23 +27,15 @@ struct Hough {
   bool edges = true;
 
   static auto about() {
-    return velum::About<Hough>("Planes and spheres by the votes of a 3-D Hough transform.")
-        .in("cloud")
+    velum::About<Hough> about("Planes and spheres by the votes of a 3-D Hough transform.");
+    about.in("cloud")
         .needs("cloud", "normals")
         .out("clusters", "numbered from the largest to the smallest")
         .choice(&Hough::model, "model", "which shapes are sought",
                 {{"plane", Model::plane, "planes, for which flat patches vote"},
                  {"sphere", Model::sphere, "spheres, for which triples of points vote"},
-                 {"any", Model::any, "both; the one that takes more points goes first"}})
-        .param(&Hough::epsilon, "epsilon",
-               "greatest distance of a point from its shape; unset: six times the cloud's noise, "
-               "at least a tenth of its spacing",
-               velum::above(0.0))
-        .param(&Hough::angle, "angle", "greatest angle between a point's normal and the shape's",
-               velum::between(0.01, std::numbers::pi / 2))
-        .param(&Hough::min_size, "min_size",
-               "fewer points make no shape; unset: 1 % of the cloud, at least 50",
-               velum::at_least(6))
+                 {"any", Model::any, "both; the one that takes more points goes first"}});
+    return velum::shapes::add_tolerances(about)
         .param(&Hough::shapes, "shapes", "most shapes to be found; unset: all", velum::at_least(1))
         .param(&Hough::max_radius, "max_radius", "greatest radius of a sphere", velum::above(0.0))
         .param(&Hough::bin, "bin", "cells of centre and radius in which votes for spheres meet",
@@ -68,15 +58,12 @@ struct Hough {
     velum::shapes::Search search;
     if (model != Model::sphere) search.kinds.push_back(Kind::plane);
     if (model != Model::plane) search.kinds.push_back(Kind::sphere);
-    search.epsilon = epsilon ? epsilon->value
-                             : std::max({6.0 * velum::geometry::estimate_noise(cloud, context),
-                                         0.1 * cloud.spacing(), 1e-6 * cloud.diagonal()});
+    search.epsilon = velum::shapes::tolerance(epsilon, cloud, context);
     search.angle = angle;
-    search.min_size = min_size.value_or(std::max(50, static_cast<int>(cloud.size() / 100)));
+    search.min_size = velum::shapes::least_points(min_size, cloud);
     search.most = shapes.value_or(search.most);
     search.max_radius = max_radius;
     search.edges = edges;
-    context.measure("epsilon", search.epsilon, "m");
     const velum::shapes::Votes cast{votes, std::max(bin.value, 2.0 * search.epsilon)};
 
     velum::shapes::Detection found =
@@ -86,9 +73,7 @@ struct Hough {
     velum::Clusters clusters =
         velum::shapes::clusters_of(cloud, velum::shapes::labelled(std::move(found)), context);
     velum::shapes::measure(clusters, context);
-    if (clusters.kinds.empty() && !cloud.empty())
-      context.warn(fmt::format("no shape of {} points (min_size) lies within {:.3g} m (epsilon)",
-                               search.min_size, search.epsilon));
+    velum::shapes::warn_of_nothing(clusters, "shape", search.min_size, search.epsilon, context);
     return clusters;
   }
 };

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 
-#include <fmt/format.h>
 #include <pcl/ModelCoefficients.h>
 #include <pcl/point_types.h>
 #include <pcl/segmentation/sac_segmentation.h>
@@ -11,8 +10,8 @@
 #include <numeric>
 #include <velum/stage.hpp>
 
-#include "geometry/normals.hpp"
 #include "pcl/clouds.hpp"
+#include "shapes/parameters.hpp"
 #include "shapes/table.hpp"
 
 namespace {
@@ -92,11 +91,8 @@ struct PclRansac {
   }
 
   velum::Clusters operator()(const velum::Cloud& cloud, velum::Context& context) const {
-    const int least = min_size.value_or(std::max(50, static_cast<int>(cloud.size() / 100)));
-    const double near = epsilon ? epsilon->value
-                                : std::max({6.0 * velum::geometry::estimate_noise(cloud, context),
-                                            0.1 * cloud.spacing(), 1e-6 * cloud.diagonal()});
-    context.measure("epsilon", near, "m");
+    const int least = velum::shapes::least_points(min_size, cloud);
+    const double near = velum::shapes::tolerance(epsilon, cloud, context);
     velum::shapes::Labelled found{Eigen::VectorXi::Constant(cloud.size(), -1), {}, {}};
     auto left = std::make_shared<std::vector<int>>(static_cast<std::size_t>(cloud.size()));
     std::iota(left->begin(), left->end(), 0);
@@ -137,9 +133,7 @@ struct PclRansac {
     velum::shapes::keep_sizes(found, 1, cloud.size());
     velum::Clusters clusters = velum::shapes::clusters_of(cloud, std::move(found), context);
     velum::shapes::measure(clusters, context);
-    if (clusters.kinds.empty() && !cloud.empty())
-      context.warn(fmt::format("no {} of {} points (min_size) lies within {:.3g} m (epsilon)",
-                               velum::shapes::name_of(model), least, near));
+    velum::shapes::warn_of_nothing(clusters, velum::shapes::name_of(model), least, near, context);
     return clusters;
   }
 };

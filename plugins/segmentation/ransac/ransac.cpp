@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "shapes/ransac.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
 #include <velum/stage.hpp>
 
-#include "geometry/normals.hpp"
+#include "shapes/parameters.hpp"
 #include "shapes/table.hpp"
 
 namespace {
@@ -29,8 +27,8 @@ struct Ransac {
   bool edges = true;
 
   static auto about() {
-    return velum::About<Ransac>("Planes, spheres, cylinders and cones, one after another.")
-        .in("cloud")
+    velum::About<Ransac> about("Planes, spheres, cylinders and cones, one after another.");
+    about.in("cloud")
         .needs("cloud", "normals")
         .out("clusters", "numbered from the largest to the smallest")
         .choice(&Ransac::model, "model", "which shapes are sought",
@@ -38,17 +36,8 @@ struct Ransac {
                  {"plane", Model::plane, "planes only"},
                  {"sphere", Model::sphere, "spheres only"},
                  {"cylinder", Model::cylinder, "cylinders only"},
-                 {"cone", Model::cone, "cones only"}})
-        .param(&Ransac::epsilon, "epsilon",
-               "ε: greatest distance of a point from its shape; unset: three times the cloud's "
-               "noise, at least a tenth of its spacing",
-               velum::above(0.0))
-        .param(&Ransac::angle, "angle",
-               "α: greatest angle between a point's normal and the shape's",
-               velum::between(0.01, std::numbers::pi / 2))
-        .param(&Ransac::min_size, "min_size",
-               "τ: fewer points make no shape; unset: 1 % of the cloud, at least 50",
-               velum::at_least(6))
+                 {"cone", Model::cone, "cones only"}});
+    return velum::shapes::add_tolerances(about)
         .param(&Ransac::shapes, "shapes", "most shapes to be found; unset: all", velum::at_least(1))
         .param(&Ransac::max_radius, "max_radius", "greatest radius of a sphere or cylinder",
                velum::above(0.0))
@@ -75,31 +64,22 @@ struct Ransac {
       search.kinds.assign(velum::shapes::kAllKinds.begin(), velum::shapes::kAllKinds.end());
     else
       search.kinds = {static_cast<Kind>(static_cast<int>(model) - 1)};
-    search.epsilon = epsilon ? epsilon->value : tolerance(cloud, context);
+    search.epsilon = velum::shapes::tolerance(epsilon, cloud, context);
     search.angle = angle;
-    search.min_size = min_size.value_or(std::max(50, static_cast<int>(cloud.size() / 100)));
+    search.min_size = velum::shapes::least_points(min_size, cloud);
     search.most = shapes.value_or(search.most);
     search.overlook = overlook;
     search.max_radius = max_radius;
     search.gap = gap ? gap->value : 0.0;
     search.edges = edges;
-    context.measure("epsilon", search.epsilon, "m");
 
     velum::shapes::Detection found = velum::shapes::find_shapes(cloud, search, context);
     context.measure("samples", static_cast<double>(found.samples), "");
     velum::Clusters clusters =
         velum::shapes::clusters_of(cloud, velum::shapes::labelled(std::move(found)), context);
     velum::shapes::measure(clusters, context);
-    if (clusters.kinds.empty() && !cloud.empty())
-      context.warn(fmt::format("no shape of {} points (min_size) lies within {:.3g} m (epsilon)",
-                               search.min_size, search.epsilon));
+    velum::shapes::warn_of_nothing(clusters, "shape", search.min_size, search.epsilon, context);
     return clusters;
-  }
-
- private:
-  static double tolerance(const velum::Cloud& cloud, velum::Context& context) {
-    return std::max({6.0 * velum::geometry::estimate_noise(cloud, context), 0.1 * cloud.spacing(),
-                     1e-6 * cloud.diagonal()});
   }
 };
 

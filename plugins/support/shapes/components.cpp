@@ -178,4 +178,17 @@ Components components(const ConstPoints& positions, double radius, Context& cont
   return made;
 }
 
+std::vector<std::int32_t> largest_part(const Points& positions,
+                                       const std::vector<std::int32_t>& members, double radius,
+                                       Context& context) {
+  Points part(3, static_cast<Index>(members.size()));
+  for (Index i = 0; i < part.cols(); ++i)
+    part.col(i) = positions.col(members[static_cast<std::size_t>(i)]);
+  const Components parts = components(ConstPoints(part.data(), 3, part.cols()), radius, context);
+  std::vector<std::int32_t> kept;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (parts.labels[static_cast<Index>(i)] == 0) kept.push_back(members[i]);
+  return kept;
+}
+
 }  // namespace velum::shapes

@@ -20,4 +20,9 @@ struct Components {
 /// Throws Error when the radius is below 1e-9 of the extent.
 Components components(const ConstPoints& positions, double radius, Context& context);
 
+/// Of these points the largest component alone, in their order.
+std::vector<std::int32_t> largest_part(const Points& positions,
+                                       const std::vector<std::int32_t>& members, double radius,
+                                       Context& context);
+
 }  // namespace velum::shapes

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "shapes/consensus.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "shapes/fit.hpp"
 
 namespace velum::shapes {
@@ -9,6 +13,23 @@ namespace {
 
 constexpr Index kGrain = 8192;
 constexpr double kDegree = 0.017453292519943295;
+constexpr double kNearlyAll = 0.97;
+
+// A shape of the simpler kind to start from, where the members of `shape` could be one.
+std::optional<Shape> simpler(Kind kind, Shape shape, const Field& field,
+                             const std::vector<std::int32_t>& members) {
+  if (kind == Kind::sphere) return std::nullopt;  // no cylinder or cone is nearly one
+  shape.kind = kind;
+  if (kind == Kind::cylinder) {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const std::int32_t i : members) mean += field.positions.col(i).cast<double>();
+    mean /= static_cast<double>(members.size());
+    const double along = (mean - shape.point).dot(shape.axis);
+    shape.radius = along * std::tan(shape.angle);
+    shape.point += along * shape.axis;
+  }
+  return shape;
+}
 
 }  // namespace
 
@@ -58,6 +79,24 @@ Shape polished(const Field& field, Shape shape, const std::vector<std::int32_t>&
     }
     shape = trial;
     members = std::move(agreed);
+  }
+  return shape;
+}
+
+Shape simplest(const Field& field, const Shape& shape, const std::vector<std::int32_t>& points,
+               const Search& search, std::vector<std::int32_t>& members, Context& context) {
+  const auto enough = static_cast<double>(members.size()) * kNearlyAll;
+  for (const Kind kind : kAllKinds) {
+    if (kind >= shape.kind || std::ranges::find(search.kinds, kind) == search.kinds.end()) continue;
+    const auto start = simpler(kind, shape, field, members);
+    if (!start) continue;
+    std::vector<std::int32_t> agreed;
+    const Shape trial = polished(field, refine(*start, field.positions, members, context), points,
+                                 search, agreed, context);
+    if (admissible(trial, search) && static_cast<double>(agreed.size()) >= enough) {
+      members = std::move(agreed);
+      return trial;
+    }
   }
   return shape;
 }

@@ -32,6 +32,11 @@ struct Field {
 Shape polished(const Field& field, Shape shape, const std::vector<std::int32_t>& points,
                const Search& search, std::vector<std::int32_t>& members, Context& context);
 
+/// A plane is also a part of a huge ball: the simplest of the kinds sought that explains nearly all
+/// `members` of a shape, or the shape itself. `members` become those of the result.
+Shape simplest(const Field& field, const Shape& shape, const std::vector<std::int32_t>& points,
+               const Search& search, std::vector<std::int32_t>& members, Context& context);
+
 /// Could this be one of the shapes sought? Not a ball as large as the scene, nor a flat cone.
 bool admissible(const Shape& shape, const Search& search);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "shapes/candidate.hpp"
 #include "shapes/components.hpp"
 #include "shapes/consensus.hpp"
 #include "shapes/fit.hpp"
@@ -20,33 +21,6 @@ constexpr Index kRefitSubset = 4096;
 constexpr std::size_t kPool = 48;
 constexpr std::size_t kRefits = 4;     // of the candidates of a batch
 constexpr Index kMostSamples = 60000;  // for one shape
-
-struct Candidate {
-  Shape shape;
-  Index tested = 0;  ///< points of the shuffled sequence
-  Index agreed = 0;  ///< of them
-  int level = 0;
-};
-
-// A count over all points, from that over a random part of them.
-struct Estimate {
-  double mean;
-  double low;
-  double high;
-};
-// Mean and deviation of the hypergeometric distribution behind it (Schnabel et al. 2007, eq. 12).
-Estimate estimate(const Candidate& c, Index all) {
-  const auto n = static_cast<double>(all);
-  const auto m = static_cast<double>(c.tested);
-  const double mean = n * static_cast<double>(c.agreed + 1) / (m + 2.0);
-  if (c.tested >= all) {
-    const auto exact = static_cast<double>(c.agreed);
-    return {exact, exact, exact};
-  }
-  const double share = mean / n;
-  const double deviation = n * std::sqrt(share * (1.0 - share) / m * (1.0 - m / n));
-  return {mean, mean - 2.0 * deviation, mean + 2.0 * deviation};
-}
 
 class Ransac {
  public:
@@ -251,42 +225,11 @@ class Ransac {
     });
   }
 
-  // A plane is also a part of a huge ball: the simplest kind that explains nearly all is taken.
-  Shape simplest(Shape shape, std::vector<std::int32_t>& members) {
-    const auto wanted = [&](Kind kind) {
-      return kind < shape.kind &&
-             std::find(search_.kinds.begin(), search_.kinds.end(), kind) != search_.kinds.end();
-    };
-    const auto enough = static_cast<double>(members.size()) * 0.97;
-    for (const Kind kind : kAllKinds) {
-      if (!wanted(kind)) continue;
-      Shape trial = shape;
-      trial.kind = kind;
-      Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-      for (const std::int32_t i : members) mean += field_.positions.col(i).cast<double>();
-      mean /= static_cast<double>(members.size());
-      if (kind == Kind::cylinder) {
-        trial.radius = (mean - shape.point).dot(shape.axis) * std::tan(shape.angle);
-        trial.point += (mean - shape.point).dot(shape.axis) * shape.axis;
-      } else if (kind == Kind::sphere) {
-        continue;  // no cylinder or cone is nearly one
-      }
-      std::vector<std::int32_t> agreed;
-      const Shape start = refine(trial, field_.positions, members, context_);
-      trial = polished(field_, start, sampler_.points(), search_, agreed, context_);
-      if (admissible(trial, search_) && static_cast<double>(agreed.size()) >= enough) {
-        members = std::move(agreed);
-        return trial;
-      }
-    }
-    return shape;
-  }
-
   bool take(const Shape& candidate) {
     std::vector<std::int32_t> members;
     Shape shape = polished(field_, candidate, sampler_.points(), search_, members, context_);
-    shape = simplest(shape, members);
-    if (search_.gap > 0.0) members = largest_part(members);
+    shape = simplest(field_, shape, sampler_.points(), search_, members, context_);
+    if (search_.gap > 0.0) members = largest_part(field_.positions, members, search_.gap, context_);
     if (static_cast<Index>(members.size()) < search_.min_size) return false;
     const auto number = static_cast<int>(found_.shapes.size());
     for (const std::int32_t i : members) found_.labels[i] = number;
@@ -295,18 +238,6 @@ class Ransac {
     sampler_.remove(found_.labels);
     std::erase_if(shuffled_, [&](std::int32_t p) { return found_.labels[p] >= 0; });
     return true;
-  }
-
-  [[nodiscard]] std::vector<std::int32_t> largest_part(const std::vector<std::int32_t>& members) {
-    Points part(3, static_cast<Index>(members.size()));
-    for (Index i = 0; i < part.cols(); ++i)
-      part.col(i) = field_.positions.col(members[static_cast<std::size_t>(i)]);
-    const Components parts =
-        components(ConstPoints(part.data(), 3, part.cols()), search_.gap, context_);
-    std::vector<std::int32_t> kept;
-    for (std::size_t i = 0; i < members.size(); ++i)
-      if (parts.labels[static_cast<Index>(i)] == 0) kept.push_back(members[i]);
-    return kept;
   }
 
   Field field_;
