@@ -223,16 +223,28 @@ Json node(const std::vector<const StageInfo*>& stages) {
 Json study() {
   const Json strings = {{"type", "array"}, {"items", {{"type", "string"}}}};
   Json axis = {{"type", "object"}, {"additionalProperties", false}};
+  const Json tables = {{"type", "array"}, {"items", {{"type", "object"}}}};
+  const Json count = {{"type", "integer"}, {"minimum", 1}};
   axis["properties"] = {{"title", text("of the axis")},
+                        {"zip", text("axes of one name go along together")},
                         {"node", text("the node that is varied")},
-                        {"alternatives", {{"type", "array"}, {"items", {{"type", "object"}}}}},
+                        {"alternatives", tables},
                         {"param", text("node.parameter that is varied")},
                         {"values", {{"type", "array"}}},
-                        {"files", text("a pattern: one value a file")}};
+                        {"range", {{"type", "object"}, {"required", {"from", "to", "steps"}}}},
+                        {"files", text("a pattern: one value a file")},
+                        {"rows", tables}};
   Json schema = {{"type", "object"}, {"additionalProperties", false}};
   schema["properties"] = {{"title", text("of the study")},
-                          {"repeat", {{"type", "integer"}, {"minimum", 1}}},
+                          {"repeat", count},
+                          {"seed", count},
                           {"measure", strings},
+                          {"exclude", tables},
+                          {"sample", count},
+                          {"reference", {{"type", "object"}}},
+                          {"timing", {{"enum", {"shared", "exclusive"}}}},
+                          {"timeout", text("longest time of a cell, as \"60 s\"")},
+                          {"memory", text("most memory of a cell, as \"2 GB\"")},
                           {"vary", {{"type", "array"}, {"items", std::move(axis)}}}};
   return schema;
 }

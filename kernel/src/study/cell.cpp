@@ -53,7 +53,8 @@ std::string source_hash(const run::RunRecord& record, const std::set<std::string
   for (const run::NodeRecord& node : record.nodes)
     if (sources.contains(node.name))
       for (const auto& [port, value] : node.out.items())
-        all += fmt::format("{}.{} {}\n", node.name, port, value.value("hash", ""));
+        if (value.is_object())  // null where the source left an output out
+          all += fmt::format("{}.{} {}\n", node.name, port, value.value("hash", ""));
   return hash_of(std::as_bytes(std::span(all)));
 }
 
@@ -120,6 +121,12 @@ Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
   } catch (const Error& error) {
     Outcome outcome;
     outcome.message = plugins::one_line(error);
+    return outcome;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const std::exception& error) {
+    Outcome outcome;
+    outcome.message = error.what();
     return outcome;
   }
 }
