@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "commands.hpp"
@@ -27,14 +28,14 @@ void check(const Options& options) {
     complain(graph::format(loaded.diagnostics));
     throw Exit{graph::exit_status(loaded.diagnostics)};
   }
+  std::optional<study::Plan> plan;
+  if (loaded.graph->study) plan = study::make_plan(*loaded.graph->study);
   const std::size_t nodes = loaded.graph->nodes.size();
   print(fmt::format("{}: no mistakes, {} node{}\n", options.graph.string(), nodes,
                     nodes == 1 ? "" : "s"));
-  if (loaded.graph->study) {
-    const study::Plan plan = study::make_plan(*loaded.graph->study);
-    print(fmt::format("study: {} variants x {} repeats = {} cells\n", plan.variants.size(),
-                      plan.study.seeds.size(), plan.cells()));
-  }
+  if (plan)
+    print(fmt::format("study: {} variants x {} repeats = {} cells\n", plan->variants.size(),
+                      plan->study.seeds.size(), plan->cells()));
 }
 
 }  // namespace

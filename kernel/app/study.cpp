@@ -88,6 +88,8 @@ int report(const study::StudyResult& result, const std::filesystem::path& out) {
     return run::kInterrupted;
   }
   print(study::text(result.plan, result.comparison));
+  for (const std::string& name : result.comparison.missing)
+    complain(fmt::format("warning: no cell has the measure '{}'\n", name));
   std::size_t failed = 0;
   for (const auto& variant : result.comparison.variants) {
     if (variant.status == study::Status::ok) continue;

@@ -94,6 +94,18 @@ TEST_CASE("variants of other data are not compared, variants that failed have no
   CHECK(found.variants[3].measures.empty());
 }
 
+TEST_CASE("a variant that never ended well is no other data") {
+  Outcomes outcomes;
+  for (std::size_t r = 0; r < 2; ++r) {
+    outcomes[{0, r}] = crashed();
+    outcomes[{1, r}] = ok(1.0);
+    outcomes[{2, r}] = ok(2.0);
+  }
+  const Comparison found = compare(plan(3, 2), outcomes);
+  CHECK(found.groups == 1);
+  CHECK(rms(found, 2).rank == 2);
+}
+
 TEST_CASE("the tables hold every cell, also the failed ones") {
   Outcomes outcomes;
   outcomes[{0, 0}] = ok(0.25);

@@ -118,6 +118,9 @@ TEST_CASE("ranges, linear and logarithmic, with units") {
   CHECK(values(R"({ from = 1, to = 100, steps = 3, scale = "log" })") == Lines{"1", "10", "100"});
   CHECK(values("{ from = 0.5, to = 1.5, steps = 2 }") == Lines{"0.5", "1.5"});
   CHECK(values("{ from = 1, to = 3, steps = 5 }") == Lines{"1", "2", "3"});  // whole, each once
+  CHECK(values("{ from = 1000001, to = 1000009, steps = 3 }") ==
+        Lines{"1000001", "1000005", "1000009"});
+  CHECK(values("{ from = 0.12345678, to = 1.5, steps = 2 }") == Lines{"0.12345678", "1.5"});
 }
 
 TEST_CASE("each variant has the reference that is like it but for the reference's labels") {
@@ -126,6 +129,13 @@ TEST_CASE("each variant has the reference that is like it but for the reference'
   CHECK(made.reference_of(5) == 2);
   CHECK(made.reference_of(1) == 1);
   CHECK(plan(kTwo).reference_of(0) == 6);  // none
+  const std::string zipped =
+      "[[study.vary]]\ntitle = \"a\"\nzip = \"z\"\nparam = \"down.size\"\n"
+      "values = [1, 2]\n[[study.vary]]\nzip = \"z\"\n"
+      "param = \"mesh.max_edge\"\nvalues = [8, 9]\n";
+  CHECK(plan("reference = { a = 1 }\n" + zipped).reference_of(1) == 0);
+  CHECK_THROWS_WITH(plan("reference = { a = 1 }\nexclude = [{ a = 1 }]" + kTwo),
+                    "no variant has the labels of 'reference'");
 }
 
 TEST_CASE("an alternative keeps the wire, brings its helpers, and hides their names") {

@@ -102,6 +102,16 @@ TEST_CASE("ties are exact, zeros are left out") {
   CHECK(signed_rank_p({}) == 1.0);
 }
 
+TEST_CASE("of many differences the normal approximation, which is close to the exact one") {
+  velum::Random random(7);
+  std::vector<double> differences;
+  while (differences.size() < kMostExact) differences.push_back(random.gaussian() + 0.15);
+  const double exact = signed_rank_p(differences);
+  differences.push_back(0.01);
+  CHECK(exact < 0.2);
+  CHECK(signed_rank_p(differences) == Approx(exact).epsilon(0.1));
+}
+
 TEST_CASE("Holm's correction steps down and never turns back") {
   const auto adjusted = holm({0.02, 0.01, 0.04, 0.03});
   CHECK(adjusted[1] == Approx(0.04));

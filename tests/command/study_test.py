@@ -186,6 +186,46 @@ alternatives = [{ use = "test.slow" }, { use = "test.move" }]
         self.velum("study", "g.toml")
         self.assertEqual(len(self.cells()), 2)
 
+    def test_other_files_are_another_study(self):
+        for name in ("b", "c"):
+            self.write(f"scans/{name}.txt", "3\n")
+        self.write("g.toml", """
+units = "m"
+[node.start]
+use = "test.read"
+file = "scans/b.txt"
+[study]
+measure = ["start.count"]
+[[study.vary]]
+param = "start.file"
+files = "scans/*.txt"
+""")
+        self.velum("study", "g.toml")
+        self.velum("study", "g.toml", "--resume")
+        self.write("scans/a.txt", "3\n")  # would move the others down by a row
+        _, error = self.velum("study", "g.toml", "--resume", status=2)
+        self.assertIn("has changed since", error)
+        (self.folder / "scans/a.txt").unlink()
+        self.write("scans/c.txt", "4\n")
+        self.velum("study", "g.toml", "--resume", status=2)
+
+    def test_nobodys_files_are_removed(self):
+        self.write("g.toml", GRAPH)
+        for name in ("cells/data.txt", "study.csv", "report.html"):
+            mine = self.write(f"mine/{name}", "mine")
+            _, error = self.velum("study", "g.toml", "--out", "mine", status=6)
+            self.assertIn("not a result of a study", error)
+            self.assertEqual(mine.read_text(), "mine")
+            mine.unlink()
+            if mine.parent.name == "cells":
+                mine.parent.rmdir()
+
+    def test_a_measure_that_nobody_has_is_said(self):
+        self.write("g.toml", GRAPH.replace("moved.by", "moved.byy"))
+        _, error = self.velum("study", "g.toml")
+        self.assertIn("no cell has the measure 'moved.byy'", error)
+        self.assertEqual(self.cells()[0]["moved.byy"], "")
+
     def test_mistakes_stop_it_before_it_starts(self):
         self.write("g.toml", GRAPH.replace("test.move", "test.moev"))
         _, error = self.velum("study", "g.toml", status=2)

@@ -171,9 +171,10 @@ class Reader : public StudyReader {
       const double t = static_cast<double>(i) / static_cast<double>(count - 1);
       double x = log ? from.number * std::pow(to.number / from.number, t)
                      : from.number + t * (to.number - from.number);
+      // Six digits are enough to vary by between the ends, and read well in a table.
+      if (!whole) x = parse_number(fmt::format("{:.6g}", x)).value_or(x);
+      if (i == 0) x = from.number;
       if (i + 1 == count) x = to.number;
-      // Six digits are enough to vary by, and read well in a table.
-      x = parse_number(fmt::format("{:.6g}", x)).value_or(x);
       toml::Node node;
       node.where = range.where;
       if (!from.unit.empty()) {
@@ -198,7 +199,13 @@ class Reader : public StudyReader {
     const auto& folder = check().document.files.front().folder;
     glob_t found = {};
     std::vector<toml::Node> nodes;
-    if (::glob((folder / files.value.text).c_str(), GLOB_BRACE, nullptr, &found) == 0)
+    std::string pattern;
+    for (const char c : folder.string()) {
+      if (std::string_view("[]*?{}\\").find(c) != std::string_view::npos) pattern += '\\';
+      pattern += c;
+    }
+    pattern += "/" + files.value.text;
+    if (::glob(pattern.c_str(), GLOB_BRACE, nullptr, &found) == 0)
       for (std::size_t i = 0; i < found.gl_pathc; ++i) {
         toml::Node node;
         node.kind = Kind::string;

@@ -63,7 +63,8 @@ class Reader : public StudyReader {
     if (entry == nullptr || !expect(*entry, Kind::array, "an array such as [\"error.rms\"]"))
       return;
     for (const toml::Node& item : entry->value.items)
-      if (auto name = dotted(item.is(Kind::string) ? item.text : "", item.where, "a measure", true))
+      if (auto name = dotted(item.is(Kind::string) ? item.text : "", item.where, "a measure", true);
+          name && std::ranges::find(study_.measures, *name) == study_.measures.end())
         study_.measures.push_back(std::move(*name));
   }
 

@@ -112,8 +112,8 @@ Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
   options.cache = setup.cache;
   options.cancel = setup.cancel;
   try {
-    graph::Loaded loaded = graph::load(setup.graph, setup.overrides, registry,
-                                       {.out = options.out, .variation = &variation});
+    graph::Loaded loaded = graph::load_text(setup.text, setup.graph, setup.overrides, registry,
+                                            {.out = options.out, .variation = &variation});
     if (!loaded.graph) return invalid(loaded.diagnostics);
     run_what_is_timed(*loaded.graph, plan.study);
     run::Observer nobody;

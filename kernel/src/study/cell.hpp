@@ -17,6 +17,7 @@ namespace velum::study {
 /// What all cells of a study have in common.
 struct Setup {
   std::filesystem::path graph;
+  std::string text;  ///< of the graph's file when the study began
   std::vector<std::string> overrides;
   std::filesystem::path out;  ///< of the study; a cell's results lie in `cells/<variant>/<repeat>`
   std::filesystem::path cache;    ///< empty: none

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/comparison.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace velum::study {
@@ -16,7 +17,8 @@ class Comparer {
     for (std::size_t v = 0; v < plan_.variants.size(); ++v) summarise_variant(v);
     group();
     for (const auto& name : plan_.study.measures) {
-      if (!comparison_.measures.contains(name.full())) continue;
+      if (comparison_.measures.try_emplace(name.full()).second)
+        comparison_.missing.push_back(name.full());
       rank(name.full());
       differ(name.full());
     }
@@ -66,32 +68,30 @@ class Comparer {
     }
   }
 
-  /// Variants go together when they had the same sources in some repeat and other ones in none.
+  /// Variants go together unless they had other sources in some repeat. One that is never ok had
+  /// none that are known.
   void group() {
     std::vector<std::map<std::size_t, std::string>> groups;  // source by repeat
     for (std::size_t v = 0; v < plan_.variants.size(); ++v) {
       std::map<std::size_t, std::string> own;
       for (std::size_t r = 0; r < repeats(); ++r)
         if (outcome(v, r).status == Status::ok) own[r] = outcome(v, r).source;
+      if (own.empty()) continue;
       std::size_t g = 0;
       while (g < groups.size() && !agree(own, groups[g])) ++g;
       if (g == groups.size()) groups.emplace_back();
       groups[g].insert(own.begin(), own.end());
       comparison_.variants[v].group = g;
     }
-    comparison_.groups = groups.size();
+    comparison_.groups = std::max<std::size_t>(1, groups.size());
   }
 
   static bool agree(const std::map<std::size_t, std::string>& own,
                     const std::map<std::size_t, std::string>& group) {
-    bool shared = own.empty();
-    for (const auto& [repeat, source] : own) {
-      const auto other = group.find(repeat);
-      if (other == group.end()) continue;
-      if (other->second != source) return false;
-      shared = true;
-    }
-    return shared;
+    return std::ranges::all_of(own, [&](const auto& entry) {
+      const auto other = group.find(entry.first);
+      return other == group.end() || other->second == entry.second;
+    });
   }
 
   void rank(const std::string& measure) {

@@ -46,6 +46,7 @@ struct VariantSummary {
 
 struct Comparison {
   std::map<std::string, Figure> measures;  ///< unit and direction; the value means nothing
+  std::vector<std::string> missing;        ///< measures that no cell has
   std::vector<VariantSummary> variants;    ///< as in the plan
   std::size_t groups = 0;
 };

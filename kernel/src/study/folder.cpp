@@ -41,8 +41,8 @@ Folder::Folder(const fs::path& path, const Journal::Heading& heading, bool resum
     refuse(path_, failed ? "the folder cannot be made: " + failed.message() : "not a folder",
            "choose another folder with --out");
   lock();
-  refuse_strangers();
   const auto earlier = Journal::heading_of(path_ / kJournalName);
+  refuse_strangers(earlier.has_value());
   if (earlier && earlier->graph != heading.graph)
     refuse(path_, "the folder holds the study of another graph, " + earlier->graph,
            "choose another folder with --out, or remove this one");
@@ -55,11 +55,6 @@ Folder::Folder(const fs::path& path, const Journal::Heading& heading, bool resum
   }
   for (const std::string_view name : kOurs)
     if (name != kLock) fs::remove_all(path_ / name, failed);
-}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove(path_ / kLock, ignored);
 }
 
 void Folder::lock() {
@@ -79,11 +74,18 @@ void Folder::lock() {
   }
 }
 
-void Folder::refuse_strangers() const {
+void Folder::refuse_strangers(bool ours) const {
+  const auto is_ours = [&](const fs::path& file) {
+    const std::string name = file.filename().string();
+    if (name == kLock) return true;
+    // A study that was killed before it had begun leaves an empty journal.
+    if (!ours) return name == kJournalName && fs::is_regular_file(file) && fs::is_empty(file);
+    return std::ranges::find(kOurs, name) != kOurs.end();
+  };
   for (const auto& entry : fs::directory_iterator(path_)) {
     const std::string name = entry.path().filename().string();
     const bool partial = name.starts_with(".") && name.find(".partial.") != std::string::npos;
-    if (!partial && std::ranges::find(kOurs, name) == kOurs.end())
+    if (!partial && !is_ours(entry.path()))
       refuse(path_, "the folder holds what is not a result of a study: " + name,
              "choose another folder with --out");
   }

@@ -19,7 +19,7 @@ class Folder {
   /// With `resume` an earlier study of this heading goes on (one of another heading is an Error,
   /// Fault::graph), else it is removed.
   Folder(const std::filesystem::path& path, const Journal::Heading& heading, bool resume);
-  ~Folder();
+  ~Folder() = default;
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
@@ -28,7 +28,8 @@ class Folder {
 
  private:
   void lock();
-  void refuse_strangers() const;
+  /// `ours`: the folder has the journal of a study.
+  void refuse_strangers(bool ours) const;
 
   std::filesystem::path path_;
   files::Descriptor lock_;

@@ -94,11 +94,17 @@ graph::Variation Plan::variation(const Variant& variant) const {
 
 std::size_t Plan::reference_of(std::size_t variant) const {
   if (!study.reference) return variants.size();
+  // Named itself, or along with an axis that is.
+  const auto is_named = [&](const graph::Axis& axis) {
+    return std::ranges::any_of(study.axes, [&](const graph::Axis& other) {
+      return study.reference->contains(other.name) &&
+             (other.name == axis.name || (!axis.zip.empty() && other.zip == axis.zip));
+    });
+  };
   const auto is_reference = [&](const Variant& other) {
     if (!matches(study, other.choices, *study.reference)) return false;
     for (std::size_t a = 0; a < study.axes.size(); ++a)
-      if (!study.reference->contains(study.axes[a].name) &&
-          other.choices[a] != variants[variant].choices[a])
+      if (!is_named(study.axes[a]) && other.choices[a] != variants[variant].choices[a])
         return false;
     return true;
   };
@@ -130,6 +136,12 @@ Plan make_plan(graph::Study study) {
     plan.variants.push_back(
         {fmt::format("v{:0{}}", plan.variants.size() + 1, width), wheels.at(n)});
   plan.study = std::move(study);
+  const auto is_reference = [&](const Variant& variant) {
+    return matches(plan.study, variant.choices, *plan.study.reference);
+  };
+  if (plan.study.reference && std::ranges::none_of(plan.variants, is_reference))
+    throw Error(Fault::graph, "no variant has the labels of 'reference'")
+        .hint("it may be one that 'exclude' or 'sample' leaves out");
   return plan;
 }
 

@@ -78,13 +78,19 @@ double signed_rank_p(const std::vector<double>& differences) {
   std::size_t positive = 0;
   for (std::size_t i = 0; i < moved.size(); ++i)
     if (moved[i] > 0.0) positive += ranks[i];
+  const std::size_t extreme = std::min(positive, total - positive);
+  if (ranks.size() > kMostExact) {
+    double variance = 0.0;  // of the doubled rank sum
+    for (const std::size_t rank : ranks) variance += 0.25 * static_cast<double>(rank * rank);
+    const double off = 0.5 * static_cast<double>(total) - static_cast<double>(extreme);
+    return std::erfc(off / std::sqrt(2.0 * variance));
+  }
   // Share of the 2^n ways to give signs that make each sum.
   std::vector<double> share(total + 1, 0.0);
   share[0] = 1.0;
   for (const std::size_t rank : ranks)
     for (std::size_t sum = total + 1; sum-- > 0;)
       share[sum] = 0.5 * (share[sum] + (sum >= rank ? share[sum - rank] : 0.0));
-  const std::size_t extreme = std::min(positive, total - positive);
   const double tail =
       std::accumulate(share.begin(), share.begin() + static_cast<std::ptrdiff_t>(extreme) + 1, 0.0);
   return std::min(1.0, 2.0 * tail);

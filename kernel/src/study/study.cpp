@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <set>
 #include <span>
 
+#include "files/descriptor.hpp"
 #include "run/run.hpp"
 #include "study/cell.hpp"
 #include "study/folder.hpp"
@@ -44,7 +46,32 @@ std::string key_of(const graph::Graph& graph, const std::set<std::string>& stage
                    plugins::Registry& registry) {
   std::string all = std::string(kVersion) + "\n" + graph.resolved;
   for (const std::string& id : stages) all += id + " " + registry.file_hash(id) + "\n";
+  const auto add_file = [&](const std::string& name) {
+    const std::filesystem::path file = graph.path.parent_path() / name;
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none))
+      all += name + " " + hash_of(FileContent(file).bytes()) + "\n";
+  };
+  for (const graph::Node& node : graph.nodes)
+    for (std::size_t i = 0; i < node.settings.size(); ++i)
+      if (node.info->parameters[i].type == ParameterType::input_file)
+        if (const auto* name = std::get_if<std::string>(&node.settings[i].value)) add_file(*name);
+  for (const graph::Axis& axis : graph.study->axes)
+    for (const graph::Choice& choice : axis.choices) {
+      all += axis.name + "=" + choice.label + "\n";
+      for (const auto& value : choice.variation.values) add_file(value.value.text);
+    }
   return hash_of(std::as_bytes(std::span(all)));
+}
+
+/// A full disk is no result of a cell.
+void require_room(const Outcome& outcome, const std::filesystem::path& folder) {
+  for (const int reason : {ENOSPC, EDQUOT})
+    if (outcome.status != Status::ok &&
+        outcome.message.find(files::reason(reason)) != std::string::npos)
+      throw Error(Fault::output, outcome.message)
+          .at(folder.string())
+          .hint("make room on the disk; --resume goes on from here");
 }
 
 std::set<std::string> sources_of(const graph::Graph& graph) {
@@ -66,7 +93,7 @@ std::vector<Cell> cells_left(const Plan& plan, const Outcomes& known) {
 
 PoolOptions pool_options(const StudyOptions& options, const graph::Study& study) {
   PoolOptions pool;
-  pool.jobs = options.jobs > 0 ? options.jobs : study.exclusive ? 1 : run::default_threads();
+  pool.jobs = study.exclusive ? 1 : options.jobs > 0 ? options.jobs : run::default_threads();
   pool.seconds = options.seconds ? options.seconds : study.seconds;
   pool.bytes = options.bytes ? options.bytes : study.bytes;
   pool.cancel = options.cancel;
@@ -89,14 +116,16 @@ StudyResult run_study(const graph::Graph& graph, plugins::Registry& registry,
   Journal journal(folder.path() / kJournalName, heading);
 
   const PoolOptions pool = pool_options(options, plan.study);
-  Setup setup{.graph = graph.path,
-              .overrides = options.overrides,
-              .out = folder.path(),
-              .cache = options.cache,
-              .threads = options.threads > 0 ? options.threads
-                                             : std::max(1, run::default_threads() / pool.jobs),
-              .sources = sources_of(graph),
-              .cancel = options.cancel};
+  const Setup setup{.graph = graph.path,
+                    .text = std::string(FileContent(graph.path).text()),
+                    .overrides = options.overrides,
+                    .out = folder.path(),
+                    .cache = options.cache,
+                    .threads = options.threads > 0
+                                   ? options.threads
+                                   : std::max(1, run::default_threads() / pool.jobs),
+                    .sources = sources_of(graph),
+                    .cancel = options.cancel};
   result.finished = run_cells(
       cells_left(plan, journal.outcomes()), pool,
       [&](const Cell& cell) {
@@ -104,6 +133,7 @@ StudyResult run_study(const graph::Graph& graph, plugins::Registry& registry,
                        folder.path() / (folder_of(plan, cell).string() + ".log"));
       },
       [&](const Cell& cell, const Outcome& outcome) {
+        require_room(outcome, folder.path());
         journal.add(cell, outcome);
         ended(plan, cell, outcome, journal.outcomes().size());
       });

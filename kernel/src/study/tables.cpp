@@ -25,11 +25,10 @@ std::string heading(const std::string& name, const Figure& measure) {
   return measure.unit.empty() ? name : fmt::format("{} [{}]", name, measure.unit);
 }
 
-/// The study's measures that some cell has, in the order in which the study names them.
-std::vector<std::string> measured(const Plan& plan, const Comparison& comparison) {
+/// The study's measures, in the order in which it names them.
+std::vector<std::string> measured(const Plan& plan) {
   std::vector<std::string> names;
-  for (const auto& measure : plan.study.measures)
-    if (comparison.measures.contains(measure.full())) names.push_back(measure.full());
+  for (const auto& measure : plan.study.measures) names.push_back(measure.full());
   return names;
 }
 
@@ -126,7 +125,7 @@ constexpr std::size_t kMostRows = 40;
 }  // namespace
 
 std::string csv(const Plan& plan, const Outcomes& outcomes, const Comparison& comparison) {
-  const std::vector<std::string> names = measured(plan, comparison);
+  const std::vector<std::string> names = measured(plan);
   std::string text = "variant,repeat,seed,status,message";
   for (const auto& axis : plan.study.axes) text += "," + field(axis.name);
   for (const std::string& name : names)
@@ -158,7 +157,7 @@ run::Json json(const Plan& plan, const Outcomes& outcomes, const Comparison& com
     axes.push_back({{"name", axis.name}, {"values", std::move(labels)}});
   }
   run::Json measures = run::Json::object();
-  for (const std::string& name : measured(plan, comparison)) {
+  for (const std::string& name : measured(plan)) {
     const Figure& figure = comparison.measures.at(name);
     measures[name] = {{"unit", figure.unit}, {"better", run::name_of(figure.better)}};
   }
@@ -183,7 +182,7 @@ run::Json json(const Plan& plan, const Outcomes& outcomes, const Comparison& com
 }
 
 std::string text(const Plan& plan, const Comparison& comparison) {
-  const std::vector<std::string> names = measured(plan, comparison);
+  const std::vector<std::string> names = measured(plan);
   std::vector<std::string> head = {"variant"};
   for (const auto& axis : plan.study.axes) head.push_back(axis.name);
   const std::size_t left = head.size();
