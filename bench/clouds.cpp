@@ -59,4 +59,17 @@ velum::Cloud sail_moved(velum::Index count) {
   return with_sensor(sample(count, 2)).transformed(motion);
 }
 
+velum::test::Stage scanner(const std::string& name, velum::Index count) {
+  constexpr double kStepDegrees = 0.25;
+  constexpr double kPoints = 152'961.0;  // at that step
+  const double step =
+      std::max(kStepDegrees * std::sqrt(kPoints / static_cast<double>(count)), 0.0975);
+  const std::string degrees = std::to_string(step) + " deg";
+  return velum::test::Stage("devices.simulator")
+      .set("scene", VELUM_SOURCE_DIR "/graphs/scenes/wind_tunnel.toml")
+      .set("scanner", name)
+      .set("beam_step", degrees)
+      .set("tilt_step", degrees);
+}
+
 }  // namespace bench

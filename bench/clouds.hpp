@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <velum/cloud.hpp>
+#include <velum/testing.hpp>
 
 namespace bench {
 
@@ -12,5 +14,11 @@ velum::Cloud sail(velum::Index count);
 
 /// The same sail turned by 2° and moved by 30 mm, other random points: a pair to register.
 velum::Cloud sail_moved(velum::Index count);
+
+/// The simulated scanner "mainsail" or "gennaker" of the wind tunnel, for about `count` points.
+velum::test::Stage scanner(const std::string& name, velum::Index count);
+
+/// LAS 1.2, point format 0, steps of 0.1 mm.
+void write_las(const std::string& file, const velum::Cloud& cloud);
 
 }  // namespace bench
