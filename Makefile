@@ -4,7 +4,7 @@
 #
 #   make demo    build, run the main graph, show what was measured
 #   make test    build, run the tests
-#   make check   the long check: format, clang with sanitizers, fuzzing, threads, clang-tidy
+#   make check   the long check: format, clang with sanitizers, fuzzing, threads
 #   make bench   our stages beside PCL, CGAL and Open3D, one table of ratios
 #   make build   only the release build: build/release/bin/velum
 #   make install PREFIX=/usr/local
