@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/study.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -29,6 +28,8 @@ Exit status: 0, or 3 when the study is complete but some variants failed.)";
 
 /// Some variants failed.
 constexpr int kSomeFailed = 3;
+/// Variants whose failure is told at the end; all of them are in the files.
+constexpr std::size_t kMostReasons = 20;
 
 struct Options {
   std::filesystem::path graph;
@@ -47,12 +48,9 @@ double seconds_of(const std::string& text) {
 }
 
 std::uint64_t bytes_of(const std::string& text) {
-  const auto amount = graph::parse_amount(text);
-  const auto bytes = amount ? graph::to_bytes(*amount) : std::optional<double>{};
-  if (!bytes || !(*bytes >= 1.0) || *bytes > 1e18)
-    throw Error(Fault::graph, fmt::format("--memory '{}' is no amount of memory", text))
-        .hint("write --memory \"2 GB\"");
-  return static_cast<std::uint64_t>(*bytes);
+  if (const auto bytes = graph::parse_memory(text)) return *bytes;
+  throw Error(Fault::graph, fmt::format("--memory '{}' is no amount of memory", text))
+      .hint("write --memory \"2 GB\"");
 }
 
 /// One line for each cell that ends.
@@ -91,10 +89,10 @@ int report(const study::StudyResult& result, const std::filesystem::path& out) {
   for (const std::string& name : result.comparison.missing)
     complain(fmt::format("warning: no cell has the measure '{}'\n", name));
   std::size_t failed = 0;
-  for (const auto& variant : result.comparison.variants) {
+  for (std::size_t v = 0; v < result.plan.variants.size(); ++v) {
+    const study::VariantSummary& variant = result.comparison.variants[v];
     if (variant.status == study::Status::ok) continue;
-    const std::size_t v = static_cast<std::size_t>(&variant - result.comparison.variants.data());
-    if (++failed <= 20)
+    if (++failed <= kMostReasons)
       print(fmt::format("{} {}: {}\n", result.plan.variants[v].id, name_of(variant.status),
                         variant.message));
   }

@@ -154,14 +154,10 @@ class Reader : public StudyReader {
       if (setting.is_set()) study_.seconds = std::get<double>(setting.value);
     }
     if (const toml::Entry* memory = table.find("memory")) {
-      const auto amount = memory->value.is(Kind::string) ? parse_amount(memory->value.text)
-                                                         : std::optional<Amount>{};
-      const auto bytes = amount ? to_bytes(*amount) : std::optional<double>{};
-      if (!bytes || !(*bytes >= 1.0) || *bytes > 1e18)
+      if (memory->value.is(Kind::string)) study_.bytes = parse_memory(memory->value.text);
+      if (!study_.bytes)
         report().error("E0204", memory->value.where, "'memory' must be text such as \"2 GB\"", "",
                        known_list(byte_units()));
-      else
-        study_.bytes = static_cast<std::uint64_t>(*bytes);
     }
   }
 

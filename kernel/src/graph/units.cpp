@@ -113,6 +113,14 @@ std::optional<double> to_bytes(const Amount& amount) {
   return convert(kBytes, amount);
 }
 
+std::optional<std::uint64_t> parse_memory(std::string_view text) {
+  constexpr double kMost = 1e18;
+  const auto amount = parse_amount(text);
+  const auto bytes = amount ? to_bytes(*amount) : std::nullopt;
+  if (!bytes || !(*bytes >= 1.0) || *bytes > kMost) return std::nullopt;
+  return static_cast<std::uint64_t>(*bytes);
+}
+
 double in_metres(double number, const LengthUnit& unit) {
   return convert(kLengths, {number, unit.name}).value_or(number * unit.metres);
 }

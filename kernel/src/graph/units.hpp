@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,8 @@ struct Amount {
 [[nodiscard]] std::optional<double> to_duration(const Amount& amount);
 /// In bytes ("B", "kB", "MB", "GB", "KiB", "MiB", "GiB").
 [[nodiscard]] std::optional<double> to_bytes(const Amount& amount);
+/// The whole of `text` as an amount of memory of at least a byte, such as "2 GB".
+[[nodiscard]] std::optional<std::uint64_t> parse_memory(std::string_view text);
 /// `number` of the unit in metres, rounded once.
 [[nodiscard]] double in_metres(double number, const LengthUnit& unit);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "velum/error.hpp"
 #include "velum/random.hpp"
@@ -67,8 +66,7 @@ bool matches(const graph::Study& study, const std::vector<std::size_t>& choices,
   return true;
 }
 
-/// `size` of `count` numbers, ascending; the same for the same seed (Floyd's algorithm would save
-/// memory that is not short here).
+/// `size` of the numbers, ascending; the same each time.
 std::vector<std::size_t> drawn(std::vector<std::size_t> numbers, std::size_t size) {
   Random random(1);
   for (std::size_t i = 0; i < size; ++i)
@@ -113,8 +111,9 @@ std::size_t Plan::reference_of(std::size_t variant) const {
 
 Plan make_plan(graph::Study study) {
   const Wheels wheels(study.axes);
+  const std::size_t count = wheels.count();
   std::vector<std::size_t> numbers;
-  for (std::size_t n = 0; n < wheels.count(); ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     const auto choices = wheels.at(n);
     const auto excludes = [&](const graph::Labels& labels) {
       return matches(study, choices, labels);

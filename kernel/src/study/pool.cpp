@@ -36,7 +36,7 @@ class Pool {
       check_limits();
     }
     if (cancelled()) stop();
-    return running_.empty() && next_ == cells_.size();
+    return known_ == cells_.size();
   }
 
  private:
@@ -63,9 +63,14 @@ class Pool {
       Outcome outcome = running->process.outcome();
       // A cell that has no answer to give because the study is interrupted is no cell that crashed.
       if (!cancelled() || outcome.status != Status::crashed)
-        done_(running->cell, std::move(outcome));
+        tell(running->cell, std::move(outcome));
       running = running_.erase(running);
     }
+  }
+
+  void tell(const Cell& cell, Outcome outcome) {
+    ++known_;
+    done_(cell, std::move(outcome));
   }
 
   void check_limits() {
@@ -76,7 +81,7 @@ class Pool {
         continue;
       }
       running->process.kill();
-      done_(running->cell, *reason);
+      tell(running->cell, *reason);
       running = running_.erase(running);
     }
   }
@@ -107,7 +112,6 @@ class Pool {
     }
     for (const Running& running : running_) running.process.kill();
     running_.clear();
-    next_ = 0;
   }
 
   const std::vector<Cell>& cells_;
@@ -115,6 +119,7 @@ class Pool {
   const std::function<Process(const Cell&)>& start_;
   const std::function<void(const Cell&, Outcome)>& done_;
   std::size_t next_ = 0;
+  std::size_t known_ = 0;  ///< cells whose outcome was told
   std::list<Running> running_;
 };
 
