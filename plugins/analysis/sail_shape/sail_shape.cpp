@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "sail/sample.hpp"
 #include "sail/shape.hpp"
 
 namespace {
@@ -72,13 +71,14 @@ struct SailShape {
                  {"as_is", Edge::as_is, "along the border of the mesh"},
                  {"compensated", Edge::compensated,
                   "half a scan step outside the last returns, as a scan ends before the cloth"}})
-        .param(&SailShape::band, "band",
-               "half width of the band of points that a section is fitted to, as a share of the "
-               "height",
-               velum::between(0.005, 0.5))
+        .param(
+            &SailShape::band, "band",
+            "half width of the band of points that a section of a mesh is fitted to, as a share of "
+            "the height",
+            velum::between(0.005, 0.5))
         .advanced()
         .param(&SailShape::tangent, "tangent",
-               "share of the chord over which entry and exit angles are fitted",
+               "share of the chord over which the entry and exit angles of a mesh are fitted",
                velum::between(0.01, 0.5))
         .advanced()
         .deterministic()
@@ -95,34 +95,37 @@ struct SailShape {
 
   std::tuple<velum::Table, velum::Table> operator()(
       const std::variant<velum::Mesh, velum::Surface>& input, velum::Context& context) const {
-    const auto* given = std::get_if<velum::Mesh>(&input);
-    const velum::Mesh mesh =
-        given != nullptr ? *given : velum::sail::sample(std::get<velum::Surface>(input));
-    velum::sail::Options options;
-    options.heights = heights;
-    options.band = band;
-    options.tangent = tangent;
-    options.compensate = compensate(mesh);
-    const velum::sail::Shape shape = velum::sail::measure(mesh, up, bow, options, context);
-    context.info(options.compensate
-                     ? "the border was moved outward by half a scan step (border = compensated)"
-                     : "the border is that of the mesh (border = as_is)");
+    const velum::sail::Shape shape = measured(input, context);
     context.measure("luff", shape.luff, "m");
     context.measure("leech", shape.leech, "m");
     context.measure("foot", shape.foot, "m");
     context.measure("area", shape.area, "m^2");
-    context.measure("compensated", options.compensate ? 1.0 : 0.0, "");
+    context.measure("compensated", compensate(input) ? 1.0 : 0.0, "");
     context.measure("border_moved", shape.moved, "m");
     return {sections_of(shape), corners_of(shape)};
   }
 
  private:
-  [[nodiscard]] bool compensate(const velum::Mesh& mesh) const {
-    const bool possible = velum::sail::is_scan(mesh);
+  using Input = std::variant<velum::Mesh, velum::Surface>;
+
+  [[nodiscard]] velum::sail::Shape measured(const Input& input, velum::Context& context) const {
+    const bool outward = compensate(input);
+    context.info(outward ? "the border was moved outward by half a scan step (border = compensated)"
+                         : "the border is that of the input (border = as_is)");
+    if (const auto* surface = std::get_if<velum::Surface>(&input))
+      return velum::sail::measure(*surface, up, bow, heights, context);
+    return velum::sail::measure(std::get<velum::Mesh>(input), up, bow,
+                                {heights, band, tangent, outward}, context);
+  }
+
+  [[nodiscard]] bool compensate(const Input& input) const {
+    const auto* mesh = std::get_if<velum::Mesh>(&input);
+    const bool possible = mesh != nullptr && velum::sail::is_scan(*mesh);
     if (border == Edge::compensated && !possible)
-      throw velum::Error(velum::Fault::stage,
-                         "border = \"compensated\" needs the columns beam and line and a scanner, "
-                         "and the mesh lacks one of them")
+      throw velum::Error(
+          velum::Fault::stage,
+          "border = \"compensated\" needs a mesh with the columns beam and line and a "
+          "scanner, and the input lacks one of them")
           .hint("keep the scan's columns up to the mesh, or use border = \"as_is\"");
     return border == Edge::compensated || (border == Edge::automatic && possible);
   }

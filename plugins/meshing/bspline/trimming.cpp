@@ -141,8 +141,10 @@ sail::Border fit_border(const sail::Outline& outline, sail::EdgePoints edge,
 // Are the points between head and peak so few that the line through them is no edge?
 bool thin_top(const sail::Outline& outline, const PointOutline& found) {
   std::vector<double> there;
-  for (Index i = outline.head; i <= outline.peak; ++i)
-    there.push_back(found.spacing[outline.vertices[static_cast<std::size_t>(i)]]);
+  for (Index i = outline.head; i <= outline.peak; ++i) {
+    const std::int32_t place = outline.places[static_cast<std::size_t>(i)];
+    there.push_back(found.spacing[found.loop[static_cast<std::size_t>(place)]]);
+  }
   std::vector<double> all(found.spacing.begin(), found.spacing.end());
   return median(std::move(there)) > 1.5 * median(std::move(all));
 }
@@ -285,17 +287,13 @@ void check_near(const TrimmingCurve& curve, const Matrix2Xd& plane, const PointO
 
 TrimmingCurve smooth_border(const Cloud& cloud, const FittedSheet& sheet, const Matrix2Xd& plane,
                             const PointOutline& found) {
-  sail::Sheet flat;
-  flat.points = upright(plane);
-  flat.loop = found.loop;
-  std::vector<double> edges;
-  for (std::size_t i = 0; i < found.loop.size(); ++i)
-    edges.push_back(
-        (plane.col(found.loop[i]) - plane.col(found.loop[(i + 1) % found.loop.size()])).norm());
-  flat.spacing = median(edges);
-  if (found.loop.size() < 8 || !(flat.spacing > 0.0))
-    throw Error(Fault::stage, "the border has fewer than eight points");
-  sail::Outline outline = sail::find_corners(flat);
+  Matrix2Xd loop(2, static_cast<Index>(found.loop.size()));
+  for (Index i = 0; i < loop.cols(); ++i)
+    loop.col(i) = plane.col(found.loop[static_cast<std::size_t>(i)]);
+  const Eigen::Matrix3Xd polygon = upright(loop);
+  const double spacing = polygon.cols() < 8 ? 0.0 : sail::median_edge(polygon);
+  if (!(spacing > 0.0)) throw Error(Fault::stage, "the border has fewer than eight points");
+  sail::Outline outline = sail::find_corners(polygon, spacing);
   if (outline.has_top && thin_top(outline, found)) {
     Index apex = outline.head;
     for (Index i = outline.head; i <= outline.peak; ++i)
@@ -305,14 +303,14 @@ TrimmingCurve smooth_border(const Cloud& cloud, const FittedSheet& sheet, const 
   }
 
   sail::EdgePoints edge = sail::edge_as_is(outline);
-  VectorXd steps = VectorXd::Constant(edge.arc.size(), flat.spacing);
+  VectorXd steps = VectorXd::Constant(edge.arc.size(), spacing);
   if (sail::is_scan(cloud)) {
     edge = ScanEdge(cloud, sheet).find(found, plane);
     std::vector<double> lengths;
     steps.resize(edge.arc.size());
     for (Index i = 0; i < edge.arc.size(); ++i) {
       edge.arc[i] = sail::place_on(outline, edge.points.col(i));
-      steps[i] = std::max(2.0 * edge.moves.col(i).norm(), 1e-3 * flat.spacing);
+      steps[i] = std::max(2.0 * edge.moves.col(i).norm(), 1e-3 * spacing);
       lengths.push_back(steps[i]);
     }
     if (lengths.empty()) throw Error(Fault::stage, "no scan line ends at the border");

@@ -4,6 +4,7 @@
 
 #include "sail/corners.hpp"
 #include "sail/curve.hpp"
+#include "sail/sheet.hpp"
 
 namespace velum::sail {
 

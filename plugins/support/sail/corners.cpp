@@ -167,33 +167,26 @@ bool in_order(Index a, Index b, Index c, Index n) {
 
 }  // namespace
 
-Outline find_corners(const Sheet& sheet) {
-  const auto n = static_cast<Index>(sheet.loop.size());
-  std::vector<std::int32_t> loop = sheet.loop;
-  Matrix3Xd points(3, n);
-  const auto gather = [&] {
-    for (Index i = 0; i < n; ++i)
-      points.col(i) = sheet.points.col(loop[static_cast<std::size_t>(i)]);
-  };
-  gather();
+Outline find_corners(const Matrix3Xd& polygon, double spacing) {
+  const Index n = polygon.cols();
+  Matrix3Xd points = polygon;
   const Vector3d extent = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
   const double wide = std::max(extent.x(), 1e-9);
   const double high = std::max(extent.z(), 1e-9);
   const auto low_fore = [&](const Vector3d& p) { return -p.x() / wide - p.z() / high; };
   const auto low_aft = [&](const Vector3d& p) { return p.x() / wide - p.z() / high; };
   const auto up = [](const Vector3d& p) { return p.z(); };
-  if (!in_order(best_of(points, low_fore), best_of(points, up), best_of(points, low_aft), n)) {
-    std::reverse(loop.begin(), loop.end());
-    gather();
-  }
+  const bool backwards =
+      !in_order(best_of(points, low_fore), best_of(points, up), best_of(points, low_aft), n);
+  if (backwards) points.rowwise().reverseInPlace();
 
   const Ring ring(points);
-  const double scale = std::clamp(12.0 * sheet.spacing, 0.03 * ring.length(), 0.08 * ring.length());
+  const double scale = std::clamp(12.0 * spacing, 0.03 * ring.length(), 0.08 * ring.length());
   const double reach = 0.05 * ring.length();
   const Index tack = corner_near(ring, n + best_of(points, low_fore), reach, scale);
   const auto after_tack = [&](Index k) { return tack + ((k - tack) % n + n) % n; };
   const Index clew = after_tack(corner_near(ring, n + best_of(points, low_aft), reach, scale));
-  const double top_reach = std::max(0.02 * ring.length(), 4.0 * sheet.spacing);
+  const double top_reach = std::max(0.02 * ring.length(), 4.0 * spacing);
   Top top = top_near(ring, n + best_of(points, up), top_reach, scale);
   top.head = after_tack(top.head);
   top.peak = std::max(top.head, after_tack(top.peak));
@@ -210,17 +203,18 @@ Outline find_corners(const Sheet& sheet) {
   double arc = 0.0;
   for (Index i = 0; i < n; ++i) {
     outline.points.col(i) = ring.at(tack + i);
-    outline.vertices.push_back(loop[static_cast<std::size_t>((tack + i) % n)]);
+    const Index place = (tack + i) % n;
+    outline.places.push_back(static_cast<std::int32_t>(backwards ? n - 1 - place : place));
     outline.arc[i] = arc;
     arc += (ring.at(tack + i + 1) - ring.at(tack + i)).norm();
   }
   outline.length = arc;
-  outline.spacing = sheet.spacing;
+  outline.spacing = spacing;
   outline.head = top.head - tack;
   outline.peak = top.peak - tack;
   outline.clew = clew - tack;
-  outline.has_top = outline.arc[outline.peak] - outline.arc[outline.head] >
-                    std::max(8.0 * sheet.spacing, 0.015 * arc);
+  outline.has_top =
+      outline.arc[outline.peak] - outline.arc[outline.head] > std::max(8.0 * spacing, 0.015 * arc);
   return outline;
 }
 

@@ -20,11 +20,11 @@ std::uint64_t key(const Cell& cell) {
          (static_cast<std::uint32_t>(cell.beam) & 0xfffffffU);
 }
 
-// Vertices of the outline and those that share an edge with one of them.
-std::set<std::int32_t> near_border(const Sheet& sheet, const Outline& outline) {
+// Vertices of the border and those that share an edge with one of them.
+std::set<std::int32_t> near_border(const Sheet& sheet) {
   std::vector<bool> on(static_cast<std::size_t>(sheet.points.cols()), false);
-  for (const std::int32_t v : outline.vertices) on[static_cast<std::size_t>(v)] = true;
-  std::set<std::int32_t> near(outline.vertices.begin(), outline.vertices.end());
+  for (const std::int32_t v : sheet.loop) on[static_cast<std::size_t>(v)] = true;
+  std::set<std::int32_t> near(sheet.loop.begin(), sheet.loop.end());
   const auto triangles = sheet.mesh.triangles();
   for (Index i = 0; i < triangles.cols(); ++i)
     for (int k = 0; k < 3; ++k)
@@ -119,11 +119,11 @@ EdgePoints edge_of_scan(const Sheet& sheet, const Outline& outline) {
   const Lattice lattice(cloud);
   std::vector<Vector3d> eyes;
   for (std::size_t i = 0; i < cloud.sensors().size(); ++i)
-    eyes.emplace_back(sheet.axes * cloud.sensor_position(i).cast<double>());
+    eyes.emplace_back(sheet.frame.axes * cloud.sensor_position(i).cast<double>());
   std::vector<Vector3d> made;
   std::vector<Vector3d> moves;
   std::vector<Neighbour> around;
-  for (const std::int32_t vertex : near_border(sheet, outline)) {
+  for (const std::int32_t vertex : near_border(sheet)) {
     const Cell cell = lattice.cell(vertex);
     if (cell.sensor >= eyes.size()) continue;
     const Vector3d p = sheet.points.col(vertex);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sail/cloth.hpp"
 #include "sail/section.hpp"
 
 namespace velum::sail {
@@ -38,28 +39,11 @@ std::vector<Section> to_leeward(const std::vector<RawSection>& raw) {
   return sections;
 }
 
-}  // namespace
-
-Shape measure(const Mesh& mesh, const Vector3d& up, const Vector3d& bow, const Options& options,
-              Context& context) {
-  const Sheet sheet = make_sheet(mesh, up, bow);
-  context.check();
-  const Outline outline = find_corners(sheet);
-  context.check();
-  const Border border =
-      make_border(outline, options.compensate ? edge_of_scan(sheet, outline) : edge_as_is(outline));
-  context.check();
-
-  const double base = border.tack().z();
-  const double rise = border.head().z() - base;
-  const double datum = sheet.axes.row(2).dot(mesh.origin());
-  std::vector<RawSection> raw;
-  for (const double height : options.heights) {
-    context.check();
-    raw.push_back(
-        fit_section(sheet, border, base + height * rise, options.band * rise, options.tangent));
-    raw.back().values.height = height;
-    raw.back().values.z += datum;
+Shape shape_of(const Border& border, const Frame& frame, std::vector<RawSection> raw,
+               const std::vector<double>& heights) {
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    raw[i].values.height = heights[i];
+    raw[i].values.z += frame.datum();
   }
   Shape shape;
   shape.sections = to_leeward(raw);
@@ -67,13 +51,55 @@ Shape measure(const Mesh& mesh, const Vector3d& up, const Vector3d& bow, const O
   shape.leech = border.leech.length();
   shape.foot = border.foot.length();
   shape.top = border.top.length();
+  shape.tack = frame.true_position(border.tack());
+  shape.clew = frame.true_position(border.clew());
+  shape.head = frame.true_position(border.head());
+  shape.peak = frame.true_position(border.peak());
+  return shape;
+}
+
+// Of the sections, in sail axes.
+std::vector<double> levels(const Border& border, const std::vector<double>& heights) {
+  const double base = border.tack().z();
+  std::vector<double> all;
+  for (const double height : heights) all.push_back(base + height * (border.head().z() - base));
+  return all;
+}
+
+}  // namespace
+
+Shape measure(const Mesh& mesh, const Vector3d& up, const Vector3d& bow, const Options& options,
+              Context& context) {
+  const Sheet sheet = make_sheet(mesh, up, bow);
+  context.check();
+  const Outline outline = find_corners(sheet.border(), sheet.spacing);
+  context.check();
+  const Border border =
+      make_border(outline, options.compensate ? edge_of_scan(sheet, outline) : edge_as_is(outline));
+  const double band = options.band * (border.head().z() - border.tack().z());
+  std::vector<RawSection> raw;
+  for (const double z : levels(border, options.heights)) {
+    context.check();
+    raw.push_back(fit_section(sheet, border, z, band, options.tangent));
+  }
+  Shape shape = shape_of(border, sheet.frame, std::move(raw), options.heights);
   const double strip = strip_area(sheet, outline, border);
   shape.area = area_of(sheet) + strip;
   shape.moved = strip / (shape.luff + shape.leech + shape.foot + shape.top);
-  shape.tack = sheet.true_position(border.tack());
-  shape.clew = sheet.true_position(border.clew());
-  shape.head = sheet.true_position(border.head());
-  shape.peak = sheet.true_position(border.peak());
+  return shape;
+}
+
+Shape measure(const Surface& surface, const Vector3d& up, const Vector3d& bow,
+              const std::vector<double>& heights, Context& context) {
+  const Cloth cloth(surface, up, bow, context);
+  const Border border = cloth.border();
+  std::vector<RawSection> raw;
+  for (const double z : levels(border, heights)) {
+    context.check();
+    raw.push_back(cloth.section(z));
+  }
+  Shape shape = shape_of(border, cloth.frame(), std::move(raw), heights);
+  shape.area = cloth.area(context);
   return shape;
 }
 

@@ -41,8 +41,15 @@ struct Shape {
   Eigen::Vector3d peak;
 };
 
-/// Throws Error (Fault::stage) when the mesh is no sail, or a section has too few points.
+/// A mesh may be noisy: border and sections are smooth curves fitted to its vertices. Throws Error
+/// (Fault::stage) when it is no sail, or a section has too few points.
 [[nodiscard]] Shape measure(const Mesh& mesh, const Eigen::Vector3d& up, const Eigen::Vector3d& bow,
                             const Options& options, Context& context);
+
+/// A surface is smooth: measured as it is, with its own derivatives, along its trimming loop.
+/// Throws Error (Fault::stage) when it is not sound, or no sail.
+[[nodiscard]] Shape measure(const Surface& surface, const Eigen::Vector3d& up,
+                            const Eigen::Vector3d& bow, const std::vector<double>& heights,
+                            Context& context);
 
 }  // namespace velum::sail

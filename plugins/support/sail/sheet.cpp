@@ -2,27 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "sail/sheet.hpp"
 
-#include <algorithm>
-
 #include "mesh/topology.hpp"
 
 namespace velum::sail {
 namespace {
 
 using Eigen::Vector3d;
-
-Eigen::Matrix3d axes_of(const Vector3d& up, const Vector3d& bow) {
-  const Vector3d z = up.normalized();
-  const Vector3d forward = bow - bow.dot(z) * z;
-  if (!(up.norm() > 0.0) || !(forward.norm() > 1e-6 * bow.norm()))
-    throw Error(Fault::graph, "'up' and 'bow' are zero or parallel")
-        .hint("up points to the masthead, bow to the front of the boat");
-  Eigen::Matrix3d axes;
-  axes.row(0) = -forward.normalized();
-  axes.row(2) = z;
-  axes.row(1) = z.cross(Vector3d(axes.row(0)));
-  return axes;
-}
 
 double loop_length(const Eigen::Matrix3Xd& points, const std::vector<std::int32_t>& loop) {
   double sum = 0.0;
@@ -31,22 +16,20 @@ double loop_length(const Eigen::Matrix3Xd& points, const std::vector<std::int32_
   return sum;
 }
 
-double median_edge(const Eigen::Matrix3Xd& points, const std::vector<std::int32_t>& loop) {
-  std::vector<double> edges;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    edges.push_back((points.col(loop[(i + 1) % loop.size()]) - points.col(loop[i])).norm());
-  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-  std::nth_element(edges.begin(), middle, edges.end());
-  return *middle;
-}
-
 }  // namespace
+
+Eigen::Matrix3Xd Sheet::border() const {
+  Eigen::Matrix3Xd polygon(3, static_cast<Index>(loop.size()));
+  for (Index i = 0; i < polygon.cols(); ++i)
+    polygon.col(i) = points.col(loop[static_cast<std::size_t>(i)]);
+  return polygon;
+}
 
 Sheet make_sheet(const Mesh& mesh, const Vector3d& up, const Vector3d& bow) {
   Sheet sheet;
   sheet.mesh = mesh;
-  sheet.axes = axes_of(up, bow);
-  sheet.points = sheet.axes * mesh.positions().cast<double>();
+  sheet.frame = make_frame(up, bow, mesh.origin());
+  sheet.points = sheet.frame.axes * mesh.positions().cast<double>();
   double longest = 0.0;
   for (auto& loop : mesh::border_loops(mesh.triangles(), mesh::adjacency(mesh.triangles()))) {
     const double length = loop_length(sheet.points, loop);
@@ -57,7 +40,7 @@ Sheet make_sheet(const Mesh& mesh, const Vector3d& up, const Vector3d& bow) {
   if (sheet.loop.size() < 8)
     throw Error(Fault::stage, "the mesh has no border of at least eight vertices, a sail has one")
         .hint("mesh one sail at a time, and trim long edges");
-  sheet.spacing = median_edge(sheet.points, sheet.loop);
+  sheet.spacing = median_edge(sheet.border());
   if (!(sheet.spacing > 0.0))
     throw Error(Fault::stage, "most vertices of the mesh's border lie at one place");
   return sheet;
