@@ -11,6 +11,12 @@ build="g++ cmake make ninja-build ccache mold git python3 libeigen3-dev libfmt-d
 check="clang clang-format clang-tidy libclang-rt-14-dev dpkg-dev"
 bench="libopen3d-dev"
 
+# report.html is built with npm and tested in Chromium. Debian's npm stays away from a machine that
+# has another one: the two do not share their packages.
+build="$build chromium"
+node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null && command -v npm >/dev/null ||
+  build="$build nodejs npm"
+
 wanted=""
 for group in ${*:-build}; do
   case $group in

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Velum authors
+// SPDX-License-Identifier: MIT
+import { css, gradient } from "../colour.js";
+import { h, tick } from "../dom.js";
+import { heading, integer, number, scaleFor } from "../format.js";
+import { labelName } from "../data/value.js";
+import { labelColour } from "./layer.js";
+
+const kMostLabels = 14;
+
+/** What the colours of a layer mean; null where there is only one. `changed()` after a label is hidden. */
+export function legendOf(layer, changed) {
+  if (layer.key === "plain") return null;
+  const title = layer.value.id;
+  if (layer.isNumeric()) return numberLegend(layer, title);
+  return labelLegend(layer, title, changed);
+}
+
+function numberLegend(layer, title) {
+  const unit = layer.column ? layer.column.unit : "m";
+  const [lo, hi] = layer.range;
+  const scale = scaleFor(unit, Math.max(Math.abs(lo), Math.abs(hi)));
+  const name = layer.column ? layer.column.name : "height";
+  const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => h("span", {}, number((lo + t * (hi - lo)) * scale.factor, 3)));
+  return h("figure", { class: "legend" },
+    h("figcaption", {}, h("b", {}, heading(name, scale.unit)), " ", h("small", {}, title)),
+    h("div", { class: "bar", style: { background: gradient(layer.map) } }),
+    h("div", { class: "ticks" }, ticks));
+}
+
+function labelLegend(layer, title, changed) {
+  const labels = layer.value.labels(layer.column);
+  const rows = labels.slice(0, kMostLabels).map(({ label, count }, i) => {
+    const name = labelName(layer.column, label);
+    const entry = tick(name, !layer.hidden.has(label), (shown) => {
+      layer.toggleLabel(label, shown);
+      changed();
+    }, { "aria-label": `show ${layer.column.name} ${name}` });
+    entry.prepend(h("i", { style: { background: css(labelColour(labels, i)) } }));
+    return h("li", {}, entry, h("small", {}, integer(count)));
+  });
+  return h("figure", { class: "legend" },
+    h("figcaption", {}, h("b", {}, layer.column.name), " ", h("small", {}, title)),
+    h("ul", {}, rows),
+    labels.length > kMostLabels && h("small", {}, `and ${labels.length - kMostLabels} more`));
+}
