@@ -14,10 +14,10 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr Index kGrid = 200;      // cells of the grid that a section is searched in, each way
+constexpr Index kGrid = 200;  // cells of the grid that a section is searched in, each way
 constexpr Index kRimPoints = 2000;
 constexpr Index kAreaRows = 400;
-constexpr int kAreaPieces = 8;    // of a row, four Gauss points each
+constexpr int kAreaPieces = 8;  // of a row, four Gauss points each
 
 std::vector<Matrix2Xd> loops_of(const bspline::Patch& patch) {
   if (!patch.surface().trimming.empty()) return patch.surface().trimming;
@@ -111,7 +111,8 @@ Outline sharpened(const Outline& outline) {
 // Points from .. to of the outline.
 Curve piece(const Outline& outline, Index from, Index to) {
   Matrix3Xd points(3, to - from + 1);
-  for (Index i = from; i <= to; ++i) points.col(i - from) = outline.points.col(i % outline.points.cols());
+  for (Index i = from; i <= to; ++i)
+    points.col(i - from) = outline.points.col(i % outline.points.cols());
   return Curve(std::move(points));
 }
 
@@ -131,8 +132,8 @@ std::vector<double> crossings(const std::vector<Matrix2Xd>& loops, double v) {
 
 // Integral of |du × dv| along u from a to b at v.
 double strip(const bspline::Patch& patch, double a, double b, double v) {
-  constexpr std::array<double, 4> kAt{-0.8611363115940526, -0.3399810435848563,
-                                      0.3399810435848563, 0.8611363115940526};
+  constexpr std::array<double, 4> kAt{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                      0.8611363115940526};
   constexpr std::array<double, 4> kWeight{0.3478548451374538, 0.6521451548625461,
                                           0.6521451548625461, 0.3478548451374538};
   const double half = 0.5 * (b - a) / kAreaPieces;
@@ -150,10 +151,9 @@ double strip(const bspline::Patch& patch, double a, double b, double v) {
 // places before and after it.
 Vector2d deepest_of(const std::vector<Vector2d>& points) {
   constexpr std::ptrdiff_t kBeside = 4;
-  const auto most =
-      std::max_element(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
-        return std::abs(a.y()) < std::abs(b.y());
-      });
+  const auto most = std::max_element(
+      points.begin(), points.end(),
+      [](const Vector2d& a, const Vector2d& b) { return std::abs(a.y()) < std::abs(b.y()); });
   if (most - points.begin() < kBeside || points.end() - most <= kBeside) return *most;
   const Vector2d before = *(most - kBeside) - *most;
   const Vector2d after = *(most + kBeside) - *most;

@@ -42,7 +42,7 @@ class Cloth {
   bspline::Patch patch_;
   Frame frame_;
   std::vector<Eigen::Matrix2Xd> loops_;
-  Eigen::Matrix2Xd rim_;     ///< (u, v) of the outline's points
+  Eigen::Matrix2Xd rim_;  ///< (u, v) of the outline's points
   Outline outline_;
   Eigen::MatrixXd heights_;  ///< of a grid of (u, v)
 };
