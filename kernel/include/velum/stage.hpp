@@ -57,9 +57,9 @@ decltype(auto) unwrap(const Wired& wired) {
 template <class V>
 std::optional<Value> wrap(V&& value) {
   if constexpr (is_optional<V>)
-    return value ? std::optional<Value>(*std::move(value)) : std::nullopt;
+    return value ? std::optional<Value>(*std::move(value)) : std::nullopt;  // NOLINT: an rvalue
   else
-    return Value(std::move(value));
+    return Value(std::move(value));  // NOLINT: an rvalue
 }
 
 template <class T>

@@ -66,7 +66,7 @@ void remove_left_overs(const fs::path& target) {
 /// The absolute file to replace; links are followed, so that they go on pointing where they did.
 fs::path resolve(const fs::path& target) {
   std::error_code error;
-  const fs::path absolute = fs::absolute(target, error);
+  fs::path absolute = fs::absolute(target, error);
   if (error || !absolute.has_filename()) refuse(target, "not the name of a file");
   const fs::file_status status = fs::status(absolute, error);
   if (fs::is_regular_file(status)) return fs::canonical(absolute);
