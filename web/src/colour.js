@@ -5,7 +5,7 @@
 // Nine stops of each map; between them they are straight to within 2 % of the originals.
 const kStops = {
   viridis: ["440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", "addc30", "fde725"],
-  cividis: ["00224e", "123570", "3b496c", "575d6d", "707173", "8a8678", "a59c74", "c3b369", "fee838"],
+  cividis: ["00204c", "05356e", "404d6b", "60636e", "7c7b77", "9b9377", "bcae6e", "dfca5d", "ffe945"],
   "blue to red": ["2166ac", "4393c3", "92c5de", "d1e5f0", "f2efee", "fddbc7", "f4a582", "d6604d", "b2182b"],
   grey: ["202020", "3a3a3a", "555555", "707070", "8b8b8b", "a6a6a6", "c1c1c1", "dcdcdc", "f4f4f4"],
 };

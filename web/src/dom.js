@@ -28,7 +28,7 @@ export const newId = (stem) => `${stem}-${++ids}`;
 /** A select with its label. `options` are [value, text] or [value, text, group]. */
 export function choice(label, options, value, onChange, attributes = {}) {
   const groups = new Map();
-  const select = h("select", { ...attributes, onchange: (event) => onChange(event.target.value) });
+  const select = h("select", { "aria-label": label, ...attributes, onchange: (event) => onChange(event.target.value) });
   for (const [key, text, group] of options) {
     const option = h("option", { value: key, selected: key === value }, text);
     if (!group) select.append(option);

@@ -26,8 +26,11 @@ export class Browser {
     return this.openFile(file, options);
   }
 
-  async openFile(file, options = {}) {
-    const page = await this.browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
+  /** `options.init` runs in the page before its own script. */
+  async openFile(file, { init, ...options } = {}) {
+    const context = await this.browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+    const page = await context.newPage();
+    if (init) await page.addInitScript(init);
     page.setDefaultTimeout(kSlow);
     page.faults = [];
     page.on("console", (message) => message.type() === "error" && page.faults.push(`console: ${message.text()}`));
@@ -49,10 +52,15 @@ export class Browser {
 /** Closes a page that did nothing it must not. */
 export async function quiet(page) {
   assert.deepEqual(page.faults, []);
-  await page.close();
+  await page.context().close();
 }
 
-/** Share of the canvas that is drawn upon, and how many different colours there are. */
+/** What can be worked and has no accessible name. */
+export const nameless = (page) => page.evaluate(() => [...document.querySelectorAll("button, select, input, textarea, a[href], canvas, [role=img], [role=link], svg[role]")]
+  .filter((element) => !(element.getAttribute("aria-label") || element.labels?.length || element.textContent.trim() || element.closest("[aria-hidden=true]") || element.closest(".plot > *")))
+  .map((element) => element.outerHTML.slice(0, 120)));
+
+/** Share of the canvas that is drawn upon, how many different colours there are, and their mean. */
 export const drawn = (page, selector) => page.evaluate(async (selector) => {
   const canvas = document.querySelector(selector);
   await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
@@ -63,11 +71,13 @@ export const drawn = (page, selector) => page.evaluate(async (selector) => {
   context.drawImage(canvas, 0, 0);
   const { data } = context.getImageData(0, 0, copy.width, copy.height);
   let inked = 0;
+  const mean = [0, 0, 0];
   const colours = new Set();
   for (let i = 0; i < data.length; i += 4) {
     if (data[i + 3] < 200) continue;
     ++inked;
+    for (const channel of [0, 1, 2]) mean[channel] += data[i + channel];
     colours.add((data[i] >> 4) * 256 + (data[i + 1] >> 4) * 16 + (data[i + 2] >> 4));
   }
-  return { share: inked / (copy.width * copy.height), colours: colours.size };
+  return { share: inked / (copy.width * copy.height), colours: colours.size, mean: mean.map((sum) => Math.round(sum / Math.max(1, inked))) };
 }, selector);

@@ -91,6 +91,18 @@ export class Value {
     return raw === noLabel(column) ? null : raw;
   }
 
+  /** The number below which this share of a column lies; null where it has none. */
+  quantile(column, share) {
+    column.counts ??= countSteps(this.raw(column));
+    const { counts, total } = column.counts;
+    let below = 0;
+    for (let step = 0; step < kNoNumber; ++step) {
+      below += counts[step];
+      if (below >= share * total && total > 0) return column.lo + (step / (kNoNumber - 1)) * (column.hi - column.lo);
+    }
+    return column.hi;
+  }
+
   /** The labels that occur, in order, with how many points have each; null for none comes last. */
   labels(column) {
     column.occurring ??= countLabels(this.raw(column), noLabel(column));
@@ -99,6 +111,12 @@ export class Value {
 }
 
 const noLabel = (column) => (column.bits === 32 ? 0xffffffff : 0xffff);
+
+function countSteps(raw) {
+  const counts = new Uint32Array(kNoNumber + 1);
+  for (const step of raw) ++counts[step];
+  return { counts, total: raw.length - counts[kNoNumber] };
+}
 
 function countLabels(raw, none) {
   const counts = new Map();

@@ -4,34 +4,63 @@ import { h, s } from "../dom.js";
 import { bytes, seconds } from "../format.js";
 import { layOut, wiresOf } from "./layout.js";
 
-const kWide = 164;
-const kHigh = 52;
-const kGapX = 46;
-const kGapY = 14;
+const kWide = 182;
+const kHigh = 58;
 const kEdge = 8;
+const kPage = { width: 1340, height: 800 };  // what a graph should fit into, at its full size
+const kSmall = 0.66;  // below this scale from left to right, from top to bottom is tried
+
+// Along the layers and across them: `along` is a layer's length with the room for wires.
+const kSideways = { name: "sideways", size: kHigh, gap: 14, thin: 6, along: kWide + 40 };
+const kDown = { name: "down", size: kWide, gap: 16, thin: 8, along: kHigh + 40 };
 
 const kSigns = { ok: "\u2713", cached: "\u21ba", failed: "\u2715", skipped: "\u2013", interrupted: "!" };
 
 /** The graph as SVG; `open(name)` when a node is chosen. */
 export function drawGraph(run, open) {
   const wires = wiresOf(run.nodes);
-  const places = layOut(run.nodes, wires);
-  const at = new Map([...places].map(([name, place]) => [name, { x: kEdge + place.layer * (kWide + kGapX), y: kEdge + place.row * (kHigh + kGapY) }]));
-  const width = Math.max(...[...at.values()].map((p) => p.x)) + kWide + kEdge;
-  const height = Math.max(...[...at.values()].map((p) => p.y)) + kHigh + kEdge;
+  const plan = best(run.nodes, wires);
+  const at = new Map([...plan.at].map(([name, place]) => [name, corner(plan, place)]));
+  const { width, height } = plan;
   const longest = Math.max(...run.nodes.map((node) => node.seconds ?? 0), 1e-9);
-  const picture = s("svg", { class: "graph", viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": `graph of ${run.nodes.length} nodes`, style: { minWidth: `${Math.round(width * 0.66)}px`, maxWidth: `${Math.round(width * 1.15)}px` } },
-    wires.map((wire) => edge(wire, at)),
+  const picture = s("svg", { class: "graph", viewBox: `0 0 ${width.toFixed(0)} ${height.toFixed(0)}`, role: "group", "aria-label": `graph of ${run.nodes.length} nodes`, style: { minWidth: `${Math.round(width * 0.55)}px`, maxWidth: `${Math.round(width * 1.05)}px` } },
+    wires.map((wire) => edge(wire, plan)),
     run.nodes.map((node) => box(node, at.get(node.name), longest, open)));
   return h("div", { class: "scroll graph-frame", tabindex: "0", role: "region", "aria-label": "graph" }, picture, legend(run));
 }
 
-function edge(wire, at) {
-  const a = at.get(wire.from);
-  const b = at.get(wire.to);
-  const x0 = a.x + kWide, y0 = a.y + kHigh / 2, x1 = b.x, y1 = b.y + kHigh / 2;
-  const bend = Math.max(22, (x1 - x0) / 2);
-  return s("path", { class: `wire ${wire.type ?? ""}`, d: `M${x0} ${y0} C${x0 + bend} ${y0} ${x1 - bend} ${y1} ${x1} ${y1}` },
+/** From left to right, or from top to bottom where that leaves the text larger. */
+function best(nodes, wires) {
+  const [sideways, down] = [kSideways, kDown].map((way) => {
+    const plan = layOut(nodes, wires, way);
+    const along = (plan.layers - 1) * way.along + (way === kDown ? kHigh : kWide) + 2 * kEdge;
+    const across = plan.extent + 2 * kEdge;
+    const [width, height] = way === kDown ? [across, along] : [along, across];
+    return { ...plan, way, width, height, scale: Math.min(1, kPage.width / width, kPage.height / height) };
+  });
+  return sideways.scale < kSmall && down.scale > sideways.scale ? down : sideways;
+}
+
+/** The upper left corner of a node. */
+function corner({ way }, { layer, across }) {
+  const along = kEdge + layer * way.along;
+  return way === kDown ? { x: kEdge + across - kWide / 2, y: along } : { x: along, y: kEdge + across - kHigh / 2 };
+}
+
+function edge(wire, plan) {
+  const route = plan.routes.get(wire);
+  const { way } = plan;
+  const deep = way === kDown ? kHigh : kWide;
+  const point = (along, across) => (way === kDown ? `${across.toFixed(1)} ${along.toFixed(1)}` : `${along.toFixed(1)} ${across.toFixed(1)}`);
+  // Straight through the places between, bent in the room between layers.
+  let path = "";
+  for (let i = 0; i + 1 < route.length; ++i) {
+    const [a, b] = [route[i], route[i + 1]];
+    const from = kEdge + a.layer * way.along + deep, to = kEdge + b.layer * way.along;
+    const half = (from + to) / 2, x = kEdge + a.across, y = kEdge + b.across;
+    path += `${i === 0 ? `M${point(from, x)}` : `L${point(from, x)}`} C${point(half, x)} ${point(half, y)} ${point(to, y)}`;
+  }
+  return s("path", { class: `wire ${wire.type ?? ""}`, d: path },
     s("title", {}, `${wire.from}.${wire.output} \u2192 ${wire.to}.${wire.input} (${wire.type})`));
 }
 
@@ -46,9 +75,9 @@ function box(node, place, longest, open) {
   },
   s("title", {}, `${node.name}: ${node.use}\n${node.status}${facts ? `, ${facts}` : ""}${node.warnings?.length ? `\n${node.warnings.join("\n")}` : ""}`),
   s("rect", { class: "body", width: kWide, height: kHigh, rx: 7 }),
-  s("text", { class: "name", x: 10, y: 18 }, fitted(node.name, 19)),
-  s("text", { class: "use", x: 10, y: 32 }, fitted(node.use, 27)),
-  s("text", { class: "facts", x: 10, y: 45 }, facts || node.status),
+  s("text", { class: "name", x: 10, y: 19 }, fitted(node.name, node.warnings?.length ? 16 : 18)),
+  s("text", { class: "use", x: 10, y: 34.5 }, fitted(node.use, 30)),
+  s("text", { class: "facts", x: 10, y: 49 }, facts || node.status),
   s("circle", { class: "state", cx: kWide - 14, cy: 14, r: 8 }),
   s("text", { class: "sign", x: kWide - 14, y: 17.5, "text-anchor": "middle" }, kSigns[node.status] ?? "?"),
   s("rect", { class: "time", x: 4, y: kHigh - 4, width: Math.max(0, share * (kWide - 8)), height: 2.5, rx: 1 }));

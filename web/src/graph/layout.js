@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-// Places the nodes of a graph in layers from left to right (after Sugiyama): a node's layer is the
-// longest way to it; within a layer, nodes are put near the middle of those that they are wired to.
+// Places the nodes of a graph in layers (after Sugiyama): a node's layer is the longest way to it;
+// within its layer it lies near the middle of those that it is wired to. Wires over several layers
+// take a place in each, so that they go around nodes.
+import { settle, straighten } from "./settle.js";
 
-const kSweeps = 12;
+const kSweeps = 16;
+const kLast = 6;
 
 /** Wires of a run's nodes: { from, to, output, input, type }. */
 export function wiresOf(nodes) {
@@ -22,22 +25,56 @@ function split(text, known) {
   return [text.slice(0, dot), text.slice(dot + 1)];
 }
 
-/** For each node its layer and row; rows may be halves. */
-export function layOut(nodes, wires) {
+/**
+ * `size` is a node's extent across the layers, `gap` the room between two, `thin` that of a wire.
+ * Returns { at: name -> { layer, across }, routes: wire -> [{ layer, across }], layers, extent }, where
+ * `across` is the middle.
+ */
+export function layOut(nodes, wires, { size, gap, thin }) {
   const layer = layersOf(nodes, wires);
+  const items = new Map(nodes.map(({ name }) => [name, { layer: layer.get(name), size, links: [], back: [], forth: [] }]));
+  const routes = new Map(wires.map((wire) => [wire, routeOf(wire, items, thin)]));
+  for (const route of routes.values()) for (let i = 1; i < route.length; ++i) link(items.get(route[i - 1]), items.get(route[i]));
   const columns = [];
-  for (const node of nodes) (columns[layer.get(node.name)] ??= []).push(node.name);
-  const before = new Map(nodes.map(({ name }) => [name, wires.filter((w) => w.to === name).map((w) => w.from)]));
-  const after = new Map(nodes.map(({ name }) => [name, wires.filter((w) => w.from === name).map((w) => w.to)]));
-  const row = new Map();
-  for (const column of columns) column.forEach((name, i) => row.set(name, i));
+  for (const item of items.values()) (columns[item.layer] ??= []).push(item);
+  for (const column of columns) column.forEach((item, i) => { item.across = i * (size + gap); });
+  arrange(columns, gap);
+  straighten(columns, gap, size);
+  const low = Math.min(...[...items.values()].map((item) => item.across - item.size / 2));
+  const place = (name) => ({ layer: items.get(name).layer, across: items.get(name).across - low });
+  return {
+    at: new Map(nodes.map(({ name }) => [name, place(name)])),
+    routes: new Map([...routes].map(([wire, route]) => [wire, route.map(place)])),
+    layers: columns.length,
+    extent: Math.max(...[...items.values()].map((item) => item.across + item.size / 2)) - low,
+  };
+}
+
+function arrange(columns, gap) {
   for (let sweep = 0; sweep < kSweeps; ++sweep) {
     const forward = sweep % 2 === 0;
-    for (const column of forward ? columns : [...columns].reverse())
-      settle(column, row, forward ? before : after, sweep >= kSweeps - 4 ? new Map([...before].map(([name, list]) => [name, [...list, ...after.get(name)]])) : null);
+    // First by one side, to find the order; at last by both, to find the middle.
+    const side = sweep >= kSweeps - kLast ? "links" : forward ? "back" : "forth";
+    for (const column of forward ? columns : [...columns].reverse()) settle(column, side, gap);
   }
-  const least = Math.min(...row.values());
-  return new Map(nodes.map(({ name }) => [name, { layer: layer.get(name), row: row.get(name) - least }]));
+}
+
+function link(a, b) {
+  a.forth.push(b);
+  b.back.push(a);
+  a.links.push(b);
+  b.links.push(a);
+}
+
+/** The names along a wire: its ends and a place in each layer between; wires of one node share these. */
+function routeOf(wire, items, thin) {
+  const route = [wire.from];
+  for (let layer = items.get(wire.from).layer + 1; layer < items.get(wire.to).layer; ++layer) {
+    const name = `${wire.from}\n${wire.type}\n${layer}`;
+    if (!items.has(name)) items.set(name, { layer, size: thin, links: [], back: [], forth: [] });
+    route.push(name);
+  }
+  return [...route, wire.to];
 }
 
 function layersOf(nodes, wires) {
@@ -50,34 +87,14 @@ function layersOf(nodes, wires) {
       changed = true;
     }
   }
-  // A source stands right before the first that takes it.
+  // A source stands right before the first that cannot do with it alone, and its own sinks after it.
+  const givers = (name) => new Set(wires.filter((wire) => wire.to === name).map((wire) => wire.from));
   for (const { name } of nodes) {
-    const takers = wires.filter((wire) => wire.from === name);
-    if (takers.length && !wires.some((wire) => wire.to === name))
-      layer.set(name, Math.min(...takers.map((wire) => layer.get(wire.to))) - 1);
+    if (givers(name).size) continue;
+    const takers = wires.filter((wire) => wire.from === name).map((wire) => wire.to);
+    const others = takers.filter((taker) => givers(taker).size > 1 || wires.some((wire) => wire.from === taker));
+    if (others.length) layer.set(name, Math.min(...others.map((taker) => layer.get(taker))) - 1);
+    for (const taker of takers) if (!others.includes(taker)) layer.set(taker, layer.get(name) + 1);
   }
   return layer;
 }
-
-/** Sorts a column by where its neighbours are and spaces it by at least one row. */
-function settle(column, row, neighbours, both) {
-  const wanted = new Map(column.map((name) => {
-    const list = (both ?? neighbours).get(name);
-    return [name, list.length ? list.reduce((sum, other) => sum + row.get(other), 0) / list.length : row.get(name)];
-  }));
-  column.sort((a, b) => wanted.get(a) - wanted.get(b));
-  // Least squares under "one row apart": neighbouring blocks that would overlap share their mean.
-  const blocks = [];
-  column.forEach((name, i) => {
-    blocks.push({ first: i, count: 1, sum: wanted.get(name) - i });
-    while (blocks.length > 1 && mean(blocks.at(-2)) > mean(blocks.at(-1))) {
-      const last = blocks.pop();
-      blocks.at(-1).count += last.count;
-      blocks.at(-1).sum += last.sum;
-    }
-  });
-  for (const block of blocks)
-    for (let i = block.first; i < block.first + block.count; ++i) row.set(column[i], mean(block) + i);
-}
-
-const mean = (block) => block.sum / block.count;

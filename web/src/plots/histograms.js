@@ -45,7 +45,7 @@ function figure(group) {
   return h("figure", { class: "card" },
     h("figcaption", {}, h("b", {}, name), ` ${group[0].value}`),
     plot.element,
-    h("p", { class: "hint" }, group.map((one) => h("span", {}, `${group.length > 1 ? `${one.name}: ` : ""}median \u2248 ${quantity(median(one), one.unit, 3)}, 95 % below ${quantity(quantile(one, 0.95), one.unit, 3)}. `))));
+    h("p", { class: "hint" }, group.map((one) => h("span", {}, `${group.length > 1 ? `${one.name}: ` : ""}median \u2248 ${quantity(median(one), one.unit, 3)}, 95 % below ${quantity(quantile(one, 0.95), one.unit, 3)}${tails(one)}. `))));
 }
 
 function trace(histogram, i, scale, many) {
@@ -58,13 +58,20 @@ function trace(histogram, i, scale, many) {
   };
 }
 
-const total = ({ counts }) => counts.reduce((sum, count) => sum + count, 0);
+/** Of all values, also those beyond the range that is drawn. */
+const total = ({ counts, below = 0, above = 0 }) => below + above + counts.reduce((sum, count) => sum + count, 0);
 const median = (histogram) => quantile(histogram, 0.5);
 
+function tails({ below = 0, above = 0 }) {
+  if (below + above === 0) return "";
+  return `; ${[below && `${integer(below)} lie below`, above && `${integer(above)} above`].filter(Boolean).join(", ")} what is drawn`;
+}
+
 /** The quantile, straight within its bin. */
-function quantile({ lo, hi, counts }, share) {
-  const wanted = share * counts.reduce((sum, count) => sum + count, 0);
-  let below = 0;
+function quantile(histogram, share) {
+  const { lo, hi, counts } = histogram;
+  const wanted = share * total(histogram);
+  let below = histogram.below ?? 0;
   for (let bin = 0; bin < counts.length; ++bin) {
     if (below + counts[bin] >= wanted && counts[bin] > 0)
       return lo + ((hi - lo) * (bin + (wanted - below) / counts[bin])) / counts.length;

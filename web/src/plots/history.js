@@ -4,11 +4,12 @@
 import { categoryCss } from "../colour.js";
 import { h } from "../dom.js";
 import { heading, quantity, scaleFor } from "../format.js";
+import { logAxis } from "./axis.js";
 import { Plot } from "./plot.js";
 
 const columnOf = (rows, name) => {
   const at = rows.columns.findIndex((column) => column.name === name);
-  return at < 0 ? null : { unit: rows.columns[at].unit, values: rows.rows.map((row) => row[at]) };
+  return at < 0 ? null : { unit: rows.columns[at].unit, values: rows.rows.map((row) => row[at] ?? NaN) };
 };
 
 export const isHistory = (value) => {
@@ -29,6 +30,8 @@ export function historyFigures(value) {
   return figures;
 }
 
+const largest = (values) => Math.max(0, ...values.filter(Number.isFinite).map(Math.abs));
+
 const card = (title, value, plot, hint) => h("figure", { class: "card" }, h("figcaption", {}, h("b", {}, title), ` ${value.id}`), plot.element, hint && h("p", { class: "hint" }, hint));
 
 function convergence(value, iteration, error) {
@@ -36,25 +39,25 @@ function convergence(value, iteration, error) {
   const squared = error.unit === "m^2";
   const values = squared ? error.values.map(Math.sqrt) : error.values;
   const unit = squared ? "m" : error.unit;
-  const scale = scaleFor(unit, Math.max(...values));
+  const scale = scaleFor(unit, largest(values));
   const name = squared ? "root mean squared error" : "error";
   const label = `${name} of ${value.node} from ${quantity(values[0], unit)} to ${quantity(values.at(-1), unit)} in ${iteration.length} iterations`;
   const plot = new Plot(label, () => ({
     data: [{ x: iteration, y: values.map((y) => y * scale.factor), mode: "lines+markers", line: { color: categoryCss(0), width: 2 }, marker: { size: 6 }, hovertemplate: `%{x}: %{y:.5g} ${scale.unit}<extra></extra>` }],
-    layout: { xaxis: { title: "iteration", dtick: iteration.length < 12 ? 1 : undefined }, yaxis: { title: heading(name, scale.unit), type: values.every((y) => y > 0) ? "log" : "linear" } },
+    layout: { xaxis: { title: "iteration", dtick: iteration.length < 12 ? 1 : undefined }, yaxis: { title: heading(name, scale.unit), ...logAxis(values.map((y) => y * scale.factor)) } },
   }), 260);
   return card("Convergence", value, plot, `${quantity(values[0], unit)} to ${quantity(values.at(-1), unit)} in ${iteration.length} iterations.`);
 }
 
 function motion(value, iteration, steps) {
   const plot = new Plot(`rotation and translation of each step of ${value.node}`, () => {
-    const scales = steps.map(({ column }) => scaleFor(column.unit, Math.max(...column.values.map(Math.abs))));
+    const scales = steps.map(({ column }) => scaleFor(column.unit, largest(column.values)));
     return {
       data: steps.map(({ name, column }, i) => ({ x: iteration, y: column.values.map((y) => Math.abs(y * scales[i].factor)), name: heading(name, scales[i].unit), mode: "lines+markers", yaxis: i ? "y2" : "y", line: { color: categoryCss(i ? 1 : 2), width: 2, dash: i ? "dot" : "solid" }, marker: { size: 6, symbol: i ? "square" : "circle" } })),
       layout: {
         xaxis: { title: "iteration", dtick: iteration.length < 12 ? 1 : undefined },
-        yaxis: { title: heading(steps[0].name, scales[0].unit), type: "log" },
-        ...(steps[1] && { yaxis2: { title: heading(steps[1].name, scales[1].unit), overlaying: "y", side: "right", type: "log", showgrid: false } }),
+        yaxis: { title: heading(steps[0].name, scales[0].unit), ...logAxis(steps[0].column.values.map((y) => Math.abs(y * scales[0].factor))) },
+        ...(steps[1] && { yaxis2: { title: heading(steps[1].name, scales[1].unit), overlaying: "y", side: "right", showgrid: false, ...logAxis(steps[1].column.values.map((y) => Math.abs(y * scales[1].factor))) } }),
         margin: { l: 56, r: 60, t: 30, b: 44 },
       },
     };

@@ -22,11 +22,11 @@ window.addEventListener("beforeprint", () => setPrinting(true));
 window.addEventListener("afterprint", () => setPrinting(false));
 window.matchMedia("print").addEventListener("change", (event) => setPrinting(event.matches));
 
-export const isPrinting = () => printing;
+/** Of text and of what measures. */
+export const ink = () => (isDark() ? "#d7dee6" : "#25303b");
 
 /** What all plots share. */
 export function layoutFor(extra) {
-  const ink = isDark() ? "#d7dee6" : "#25303b";
   const line = isDark() ? "#2e3944" : "#dde3e9";
   const axis = { gridcolor: line, linecolor: isDark() ? "#51606e" : "#9aa7b3", zerolinecolor: isDark() ? "#51606e" : "#9aa7b3", ticks: "outside", ticklen: 4, tickcolor: isDark() ? "#51606e" : "#9aa7b3", automargin: true, title: { standoff: 8 }, exponentformat: "power" };
   const axes = {};
@@ -38,7 +38,7 @@ export function layoutFor(extra) {
   return {
     paper_bgcolor: "rgba(0,0,0,0)",
     plot_bgcolor: "rgba(0,0,0,0)",
-    font: { family: "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif", size: 12, color: ink },
+    font: { family: "system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif", size: 12, color: ink() },
     margin: { l: 56, r: 16, t: 12, b: 44 },
     hoverlabel: { font: { size: 12 } },
     legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },

@@ -1,16 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 // What a run's view shows at first: results rather than what they were made of.
-
-const kTelling = [/^deviation/, /^displacement/, /^distance/, /^cluster$/, /^grade$/, /^curvature$/];
-
-const telling = (value) => {
-  for (const pattern of kTelling) {
-    const column = value.columns.find(({ name }) => pattern.test(name));
-    if (column) return `column:${column.name}`;
-  }
-  return null;
-};
+import { telling } from "../view3d/telling.js";
 
 /** Ids of the values to show, with the key of their colouring. */
 export function firstShown(values, run) {

@@ -10,7 +10,7 @@ import { histogramSection } from "../plots/histograms.js";
 import { historyFigures, isHistory } from "../plots/history.js";
 import { sailSection } from "../sails/section.js";
 import { Explorer } from "../view3d/explorer.js";
-import { pathLine } from "../view3d/scanners.js";
+import { withGraphics } from "../view3d/graphics.js";
 import { againSection } from "./again.js";
 import { filesSection } from "./files.js";
 import { firstShown } from "./first.js";
@@ -59,14 +59,17 @@ function factsOf(run) {
 function viewSection(report, histories) {
   const values = shapes(report);
   if (values.length === 0) return null;
-  const explorer = new Explorer(values, report.run.nodes, firstShown(values, report.run));
-  window.velumView = explorer.view;
-  window.velumExplorer = explorer;
-  for (const value of histories) {
-    const names = value.rows.columns.map((column) => column.name);
-    const at = ["x", "y", "z"].map((name) => names.indexOf(name));
-    if (at.every((i) => i >= 0) && value.rows.rows.length > 1)
-      pathLine(explorer.view, value.rows.rows.map((row) => at.map((i) => row[i])), 0xd55e00);
-  }
-  return explorer.element;
+  return withGraphics(() => {
+    const explorer = new Explorer(values, report.run.nodes, firstShown(values, report.run), histories.map(pathOf).filter(Boolean));
+    window.velum = { view: explorer.view, explorer };  // for tests and the curious
+    return explorer.element;
+  });
+}
+
+/** The barycentre's way in a history. */
+function pathOf(value) {
+  const names = value.rows.columns.map((column) => column.name);
+  const at = ["x", "y", "z"].map((name) => names.indexOf(name));
+  const points = value.rows.rows.map((row) => at.map((i) => row[i])).filter((point) => point.every(Number.isFinite));
+  return at.every((i) => i >= 0) && points.length > 1 ? points : null;
 }

@@ -10,7 +10,12 @@ import { curveOf, measuredCurve, turned } from "./shape.js";
 const kChord = 460;  // of a section's drawing, user units
 const kTop = 34;
 
-const colourAt = (i, count) => css(mapped("viridis", count < 2 ? 0.3 : 0.08 + (0.72 * i) / (count - 1)));
+/** The colour of the i-th section from below, dark on light and light on dark. */
+function inkOf(i, count) {
+  const share = count < 2 ? 0.4 : i / (count - 1);
+  const [light, dark] = [0.08 + 0.72 * share, 0.38 + 0.6 * share].map((t) => css(mapped("viridis", t)));
+  return (property) => ({ [property]: light, style: `${property}: light-dark(${light}, ${dark})` });
+}
 const path = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(2)} ${y.toFixed(2)}`).join("");
 const percent = (value) => `${number(value, 3)}\u00a0%`;
 const degrees = (value) => `${number(value, 3)}\u00b0`;
@@ -27,9 +32,8 @@ export function drawSail(title, rows, sections, other) {
   return h("figure", { class: "sail card" },
     h("figcaption", {}, h("b", {}, title), sections ? "" : " \u2013 curves through chord, camber, draft, entry and exit"),
     h("div", { class: "sail-parts" },
-      h("div", { class: "profiles" }, [...rows.keys()].reverse().map((i) => profile(rows[i], curves[i], colourAt(i, rows.length), other?.find((row) => Math.abs(row.height - rows[i].height) < 1e-6)))),
-      plan(rows, curves, other)),
-    table(rows, other));
+      h("div", { class: "profiles" }, [...rows.keys()].reverse().map((i) => profile(rows[i], curves[i], inkOf(i, rows.length), other?.find((row) => Math.abs(row.height - rows[i].height) < 1e-6)))),
+      h("div", {}, plan(rows, curves, other), table(rows, other))));
 }
 
 /** One section over its chord. */
@@ -44,10 +48,10 @@ function profile(row, curve, colour, other) {
     tenths.map((x, i) => s("line", { class: i % 5 ? "tenth" : "half", x1: x, x2: x, y1: base - (i % 5 ? 3 : 5), y2: base + (i % 5 ? 3 : 5) })),
     s("line", { class: "chord", x1: 60, x2: 60 + kChord, y1: base, y2: base }),
     other && s("path", { class: "other", d: path(curveOf(other).map(at)) }),
-    s("path", { class: "cloth", d: path(curve.map(at)), style: { stroke: colour } }),
+    s("path", { class: "cloth", d: path(curve.map(at)), ...colour("stroke") }),
     s("line", { class: "depth", x1: dx, x2: dx, y1: base, y2: dy }),
-    s("circle", { cx: dx, cy: dy, r: 3.2, style: { fill: colour } }),
-    s("text", { class: "strong", x: dx, y: dy - 9, "text-anchor": "middle" }, `camber ${percent(row.camber)}`),
+    s("circle", { cx: dx, cy: dy, r: 3.2, ...colour("fill") }),
+    s("text", { class: "strong", x: dx, y: Math.min(dy, base - (other?.camber ?? 0) * kChord / 100) - 9, "text-anchor": "middle" }, `camber ${percent(row.camber)}`),
     s("text", { x: dx, y: base + 18, "text-anchor": "middle" }, `draft ${percent(row.draft)}`),
     s("text", { class: "strong", x: 0, y: base + 4 }, percent(100 * row.height)),
     s("text", { x: 60 + kChord, y: base + 18, "text-anchor": "end" }, `chord ${quantity(row.chord, "m")}`),
@@ -57,7 +61,7 @@ function profile(row, curve, colour, other) {
 
 /** All sections from above, luff on luff. */
 function plan(rows, curves, other) {
-  const lines = rows.map((row, i) => ({ row, colour: colourAt(i, rows.length), cloth: turned(curves[i], row), chord: turned([[0, 0], [1, 0]], row) }));
+  const lines = rows.map((row, i) => ({ row, colour: inkOf(i, rows.length), cloth: turned(curves[i], row), chord: turned([[0, 0], [1, 0]], row) }));
   const dashed = (other ?? []).map((row) => turned(curveOf(row), row));
   const points = [...lines.flatMap(({ cloth, chord }) => [...cloth, ...chord]), ...dashed.flat()];
   const [lowX, highX, lowY, highY] = [0, 1].flatMap((axis) => [Math.min(...points.map((p) => p[axis])), Math.max(...points.map((p) => p[axis]))]);
@@ -67,11 +71,11 @@ function plan(rows, curves, other) {
   return s("svg", { class: "plan", viewBox: `0 0 480 ${height.toFixed(0)}`, role: "img", "aria-label": `sections from above: ${rows.map((row) => `${percent(100 * row.height)} twist ${degrees(row.twist ?? 0)}`).join(", ")}` },
     s("text", { class: "strong", x: 20, y: 14 }, "from the masthead"),
     dashed.map((curve) => s("path", { class: "other", d: path(curve.map(at)) })),
-    lines.map(({ chord, colour }) => s("path", { class: "chord", d: path(chord.map(at)), style: { stroke: colour } })),
-    lines.map(({ cloth, colour }) => s("path", { class: "cloth", d: path(cloth.map(at)), style: { stroke: colour } })),
+    lines.map(({ chord, colour }) => s("path", { class: "chord", d: path(chord.map(at)), ...colour("stroke") })),
+    lines.map(({ cloth, colour }) => s("path", { class: "cloth", d: path(cloth.map(at)), ...colour("stroke") })),
     lines.map(({ row, chord, colour }) => {
       const [x, y] = at(chord[1]);
-      return [s("circle", { cx: x, cy: y, r: 2.6, style: { fill: colour } }), s("text", { x: x + 6, y: y + 4 }, row.twist === undefined ? "" : degrees(row.twist))];
+      return [s("circle", { cx: x, cy: y, r: 2.6, ...colour("fill") }), s("text", { x: x + 6, y: y + 4 }, row.twist === undefined ? "" : degrees(row.twist))];
     }),
     s("circle", { cx: at([0, 0])[0], cy: at([0, 0])[1], r: 3.4, class: "luff" }),
     s("text", { x: at([0, 0])[0], y: at([0, 0])[1] + 18 }, "luff"),
@@ -87,10 +91,10 @@ function scaleBar(scale, height) {
 }
 
 function table(rows, other) {
-  const columns = [["height", "height", (v) => percent(100 * v)], ["z", "z", (v) => quantity(v, "m")], ["chord", "chord", (v) => quantity(v, "m")], ["camber", "camber", percent], ["draft", "draft", percent], ["twist", "twist", degrees], ["entry", "entry", degrees], ["exit", "exit", degrees]].filter(([key]) => rows[0][key] !== undefined);
+  const columns = [["height", "height", (v) => percent(100 * v)], ["z", "z", (v) => `${v.toFixed(3)}\u00a0m`], ["chord", "chord", (v) => `${v.toFixed(4)}\u00a0m`], ["camber", "camber", percent], ["draft", "draft", percent], ["twist", "twist", degrees], ["entry", "entry", degrees], ["exit", "exit", degrees]].filter(([key]) => rows[0][key] !== undefined);
   const line = (row, kind) => h("tr", { class: kind }, columns.map(([key, , text], i) => (i ? h("td", { class: "n" }, text(row[key])) : h("th", { scope: "row", class: "n" }, text(row[key])))));
   return h("div", { class: "scroll" }, h("table", {},
     h("thead", {}, h("tr", {}, columns.map(([, name]) => h("th", { scope: "col", class: "n" }, name)))),
-    h("tbody", {}, rows.toReversed?.().map((row) => line(row)) ?? [...rows].reverse().map((row) => line(row))),
+    h("tbody", {}, [...rows].reverse().map((row) => line(row))),
     other && h("tbody", { class: "dashed" }, h("tr", {}, h("th", { colspan: columns.length, class: "note" }, "compared with (dashed)")), [...other].reverse().map((row) => line(row)))));
 }

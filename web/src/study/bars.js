@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
+import { logAxis } from "../plots/axis.js";
+import { ink } from "../plots/theme.js";
 
 /** Horizontal bars of the means; whiskers are the 95 % intervals. */
 export function bars(study, { measure, log }, variants) {
@@ -11,7 +13,7 @@ export function bars(study, { measure, log }, variants) {
       type: "bar", orientation: "h", y: names.map((_, i) => i), x: variants.map((variant) => shown(variant.summary[measure].mean)),
       marker: { color: variants.map((variant) => study.colour(variant)), opacity: 0.85 },
       error_x: {
-        type: "data", symmetric: false, thickness: 1.4, width: 4,
+        type: "data", symmetric: false, thickness: 1.4, width: 4, color: ink(),
         array: variants.map(({ summary }) => shown(summary[measure].ci95[1] - summary[measure].mean)),
         arrayminus: variants.map(({ summary }) => shown(summary[measure].mean - summary[measure].ci95[0])),
       },
@@ -19,7 +21,7 @@ export function bars(study, { measure, log }, variants) {
       hovertemplate: `%{customdata[0]}: %{customdata[1]}<br>%{x:.4g} ${scale.unit}, %{customdata[2]} repeats<extra></extra>`,
     }],
     layout: {
-      xaxis: { title: study.titled(measure), type: log ? "log" : "linear", rangemode: "tozero" },
+      xaxis: { title: study.titled(measure), ...(log && logAxis(variants.flatMap((variant) => study.values(variant, measure).map((value) => study.shown(measure, value))))), rangemode: "tozero" },
       yaxis: { tickvals: names.map((_, i) => i), ticktext: names, autorange: "reversed", ticks: "" },
       bargap: 0.3,
     },

@@ -11,6 +11,9 @@ export class Study {
     Object.assign(this, report.study);
     this.axes ??= [];
     this.variants ??= [];
+    // Very large studies come without the single runs.
+    this.hasRuns = this.variants.some((variant) => variant.runs?.length);
+    for (const variant of this.variants) variant.runs ??= [];
     this.names = Object.keys(this.measures ?? {});
     // An axis that has one value only tells no variants apart.
     this.telling = this.axes.filter((axis) => axis.values.length > 1);
@@ -62,7 +65,7 @@ export class Study {
   }
 
   hasRepeats() {
-    return this.variants.some((variant) => variant.runs.length > 1);
+    return this.variants.some((variant) => Object.values(variant.summary ?? {}).some((summary) => summary.count > 1));
   }
 }
 

@@ -23,16 +23,16 @@ export function studyPage(report) {
     version: report.velum,
     facts: [
       ["variants", integer(study.variants.length)],
-      ["cells", integer(cells)],
-      ["failed cells", failed ? h("span", { class: "status failed" }, integer(failed)) : "none"],
+      study.hasRuns && ["cells", integer(cells)],
+      study.hasRuns && ["failed cells", failed ? h("span", { class: "status failed" }, integer(failed)) : "none"],
       ...study.axes.map((axis) => [axis.name || "axis", axis.values.length > 6 ? `${axis.values.length} values` : axis.values.join(", ")]),
     ],
-    banner: banner(study),
+    banner: banner(study, report.told),
     sections: [
-      ["table", "Variants", tableSection(study, () => download("study.csv", report.csv ?? "", "text/csv"))],
+      ["table", "Variants", tableSection(study, report.csv && (() => download("study.csv", report.csv, "text/csv")))],
       ["comparison", "Comparison", measured && comparisonSection(study)],
       ["scatter", "One measure against another", study.names.length > 1 && scatterSection(study)],
-      ["view", "Side by side", sideBySide(shapes(report), study)],
+      ["view", "Side by side", viewsOf(report, study)],
       ["histograms", "Distributions", histogramSection(report.histograms)],
       ["stages", "Stages: references and licences", stagesSection(report.stages)],
       ["again", "Run it again", again(study, report)],
@@ -40,9 +40,19 @@ export function studyPage(report) {
   });
 }
 
-function banner(study) {
-  if (new Set(study.variants.map((variant) => variant.data)).size < 2) return null;
-  return h("div", { class: "banners" }, h("p", { class: "banner warning" }, "Not all variants had the same data. Ranks and differences count only within a group of variants that had; the table's column \u201cdata\u201d numbers the groups."));
+function viewsOf(report, study) {
+  const views = sideBySide(shapes(report), study);
+  const { variants, of } = report.views_of ?? {};
+  return views && [views, variants < of && h("p", { class: "hint" }, `This page holds the surfaces of ${variants} of ${of} variants; those of the others are in their cells' folders.`)];
+}
+
+function banner(study, told) {
+  const several = new Set(study.variants.map((variant) => variant.data)).size > 1;
+  const some = told && told.variants < told.of;
+  if (!several && !some) return null;
+  return h("div", { class: "banners" },
+    some && h("p", { class: "banner warning" }, `This page has the best ${integer(told.variants)} of ${integer(told.of)} variants by their rank in the first measure; study.csv beside it has all.`),
+    several && h("p", { class: "banner warning" }, "Not all variants had the same data. Ranks and differences count only within a group of variants that had; the table's column \u201cdata\u201d numbers the groups."));
 }
 
 function again(study, report) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Any two measures against each other, with the Pareto front.
 import { choice, h, tick } from "../dom.js";
+import { logAxis } from "../plots/axis.js";
 import { Plot } from "../plots/plot.js";
 import { front } from "./pareto.js";
 
@@ -23,7 +24,7 @@ export function scatterSection(study) {
     h("div", { class: "filters" },
       choice("across", measures, state.x, set("x"), { id: "scatter-x" }), choice("up", measures, state.y, set("y"), { id: "scatter-y" }),
       tick("log across", state.logX, set("logX")), tick("log up", state.logY, set("logY")),
-      study.hasRepeats() && tick("every repeat", false, set("repeats"))),
+      study.hasRuns && study.hasRepeats() && tick("every repeat", false, set("repeats"))),
     h("figure", { class: "card" }, plot.element, said),
   ];
 }
@@ -57,7 +58,7 @@ function picture(study, state) {
   if (best?.length > 1) data.unshift(staircase(best, study, state));
   return {
     data,
-    layout: { xaxis: { title: study.titled(state.x), type: state.logX ? "log" : "linear" }, yaxis: { title: study.titled(state.y), type: state.logY ? "log" : "linear" }, hovermode: "closest" },
+    layout: { xaxis: { title: study.titled(state.x), ...(state.logX && logAxis(points.map((point) => point.x))) }, yaxis: { title: study.titled(state.y), ...(state.logY && logAxis(points.map((point) => point.y))) }, hovermode: "closest" },
   };
 }
 

@@ -3,6 +3,7 @@
 // Views of several variants beside each other, moved together, in the same colours.
 import { choice, h, tick } from "../dom.js";
 import { middleOf } from "../view3d/explorer.js";
+import { withGraphics } from "../view3d/graphics.js";
 import { directions, keyHelp } from "../view3d/keys.js";
 import { Layer } from "../view3d/layer.js";
 import { legendOf } from "../view3d/legend.js";
@@ -13,9 +14,11 @@ const kMostPanes = 6;
 export function sideBySide(values, study) {
   if (values.length === 0) return null;
   const variants = study.variants.filter((variant) => values.some((value) => value.variant === variant.id));
-  const sides = new SideBySide(values, study, variants);
-  window.velumPanes = sides.panes.map((pane) => pane.view);
-  return sides.element;
+  return withGraphics(() => {
+    const sides = new SideBySide(values, study, variants);
+    window.velum = { panes: sides.panes.map((pane) => pane.view) };  // for tests and the curious
+    return sides.element;
+  });
 }
 
 class SideBySide {
@@ -30,8 +33,8 @@ class SideBySide {
     this.variants = variants;
     this.panes = variants.slice(0, Math.min(kMostPanes, variants.length)).map((variant) => new Pane(this, variant));
     this.colours = h("span", {});
-    this.panesElement = h("div", { class: "panes" }, this.panes.map((pane) => pane.element));
-    this.element = h("div", {}, this.#tools(), this.panesElement, h("p", { class: "hint keys" }, keyHelp));
+    this.legend = h("div", { class: "shared-legend" });
+    this.element = h("div", {}, this.#tools(), h("div", { class: "panes" }, this.panes.map((pane) => pane.element)), this.legend, h("p", { class: "hint keys" }, keyHelp));
     this.refresh();
     this.panes[0]?.view.fit(directions.oblique);
   }
@@ -61,9 +64,11 @@ class SideBySide {
     const layers = this.panes.map((pane) => pane.layer).filter(Boolean);
     for (const layer of layers) layer.colourBy(layer.colourings().some(([key]) => key === this.colouring) ? this.colouring : "plain");
     const numeric = layers.filter((layer) => layer.isNumeric());
-    const lo = Math.min(...numeric.map((layer) => layer.fullRange()[0]));
-    const hi = Math.max(...numeric.map((layer) => layer.fullRange()[1]));
+    const lo = Math.min(...numeric.map((layer) => layer.goodRange()[0]));
+    const hi = Math.max(...numeric.map((layer) => layer.goodRange()[1]));
     for (const layer of numeric) layer.setRange(lo, hi);
+    const first = numeric[0];
+    this.legend.replaceChildren(...(first ? [legendOf(first, () => {}, `${this.output}, all views`)] : []));
     for (const pane of this.panes) pane.refresh();
   }
 
@@ -80,7 +85,7 @@ class Pane {
     this.view = new View(sides.base, `3-D view of variant ${variant.id}. ${keyHelp}`);
     this.view.on("camera", (pose) => sides.moved(this, pose));
     this.legends = h("div", { class: "legends" });
-    this.missing = h("p", { class: "empty" });
+    this.missing = h("p", { class: "missing" });
     this.view.element.append(this.legends, this.missing);
     const label = (one) => `${one.id}: ${sides.study.label(one)}`;
     this.element = h("figure", { class: "pane" }, h("header", {}, h("select", {
@@ -102,7 +107,7 @@ class Pane {
   }
 
   refresh() {
-    this.legends.replaceChildren(...[this.layer && legendOf(this.layer, () => this.view.draw())].filter(Boolean));
+    this.legends.replaceChildren(...[this.layer && !this.layer.isNumeric() && legendOf(this.layer, () => this.view.draw(), this.sides.output)].filter(Boolean));
     this.view.draw();
   }
 }

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 import { categoryCss } from "../colour.js";
-import { heading } from "../format.js";
+import { heading, number } from "../format.js";
+import { logAxis } from "../plots/axis.js";
 import { numericAxis } from "./model.js";
 
 const kDashes = ["solid", "dot", "dash", "dashdot", "longdash"];
@@ -28,8 +29,8 @@ export function sweep(study, { measure, axis: name, log }) {
   return {
     data,
     layout: {
-      xaxis: { title: heading(name, numeric.unit), type: geometric ? "log" : "linear" },
-      yaxis: { title: study.titled(measure), type: log ? "log" : "linear" },
+      xaxis: { title: heading(name, numeric.unit), ...(geometric && { type: "log", tickmode: "array", tickvals: values, ticktext: values.map((x) => number(x, 4)) }) },
+      yaxis: { title: study.titled(measure), ...(log && logAxis([...curves.values()].flat().map(({ summary }) => study.shown(measure, summary[measure].mean)))) },
       showlegend: curves.size > 1,
     },
   };

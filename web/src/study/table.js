@@ -19,14 +19,14 @@ export function tableSection(study, downloadCsv) {
     draw();
   };
   const search = h("input", { type: "search", placeholder: "filter: words, all must occur", "aria-label": "filter the table", oninput: () => set("text")(search.value) });
-  const states = [...new Set(study.variants.flatMap((variant) => variant.runs.map((run) => run.status)))];
+  const states = [...new Set(study.variants.flatMap((variant) => [variant.status, ...variant.runs.map((run) => run.status)]))];
   draw();
   return [
     h("div", { class: "filters" },
-      choice("rows", [["variants", "a variant each"], ["cells", "a cell each"]], "variants", set("by")),
+      study.hasRuns && choice("rows", [["variants", "a variant each"], ["cells", "a cell each"]], "variants", set("by")),
       search,
       states.length > 1 && choice("status", [["", "any"], ["failed", "not ok"], ...states.map((one) => [one, one])], "", set("status")),
-      button("Download CSV", downloadCsv), count, pager),
+      downloadCsv && button("Download CSV", downloadCsv), count, pager),
     holder,
     h("p", { class: "hint" }, "Mean \u00b1 standard deviation over the repeats that are ok. Green: best of those compared. * differs from the reference variant by more than chance (p < 5 %, exact signed-rank test, Holm-corrected)."),
   ];
@@ -73,7 +73,7 @@ function rowsOf(study, state) {
   const rows = study.variants.flatMap((variant, index) => (state.by === "cells" ? variant.runs.map((run) => ({ variant, run, index })) : [{ variant, index }]));
   return rows.filter((row) => {
     const status = statusOf(row);
-    if (state.status === "failed" ? status === "ok" : state.status && !(state.by === "variants" ? row.variant.runs.some((run) => run.status === state.status) : status === state.status)) return false;
+    if (state.status === "failed" ? status === "ok" : state.status && status !== state.status && !(state.by === "variants" && row.variant.runs.some((run) => run.status === state.status))) return false;
     if (words.length === 0) return true;
     const text = [row.variant.id, ...Object.values(row.variant.axes), status, messageOf(row)].join(" ").toLowerCase();
     return words.every((word) => text.includes(word));

@@ -8,7 +8,8 @@ import { Layer } from "./layer.js";
 import { legendOf } from "./legend.js";
 import { panelRow } from "./panel.js";
 import { Picks } from "./picks.js";
-import { Scanners } from "./scanners.js";
+import { Scanners, pathLine } from "./scanners.js";
+import { telling } from "./telling.js";
 import { View } from "./view.js";
 
 /** The middle of all values, which views have as their origin [m]. */
@@ -26,8 +27,11 @@ export function middleOf(values) {
 }
 
 export class Explorer {
-  /** `first`: ids of the values that are shown at the start, with the key of their colouring. */
-  constructor(values, nodes, first) {
+  /**
+   * `first`: ids of the values that are shown at the start, with the key of their colouring; `paths`:
+   * lists of points, such as the way of a barycentre.
+   */
+  constructor(values, nodes, first, paths = []) {
     this.view = new View(middleOf(values), `3-D view of the run's clouds and meshes. ${keyHelp}`);
     this.picks = new Picks(this.view, nodes);
     this.scanners = new Scanners(this.view);
@@ -37,6 +41,7 @@ export class Explorer {
     this.entries = values.map((value, i) => this.#entry(value, i));
     for (const entry of this.entries) if (first.has(entry.value.id)) entry.show(true, first.get(entry.value.id));
     this.view.element.append(this.legends, this.scale, h("span", { class: "cross", "aria-hidden": "true" }));
+    this.paths = paths.map((points) => pathLine(this.view, points, 0xd55e00));
     this.element = this.#build();
     this.refresh();
     this.view.fit(directions.oblique);
@@ -47,7 +52,7 @@ export class Explorer {
     entry.show = (visible, colouring) => {
       if (!entry.layer && visible) {
         entry.layer = new Layer(value, this.view.base, index);
-        if (colouring) entry.layer.colourBy(colouring);
+        entry.layer.colourBy(colouring ?? telling(value) ?? "plain");
         this.view.add(entry.layer);
       }
       entry.layer?.setVisible(visible);
@@ -78,9 +83,12 @@ export class Explorer {
     const { view } = this;
     return [
       button("Show all", () => view.fit()),
-      Object.entries(directions).map(([name, direction]) => button(name, () => view.fit(direction))),
+      this.scanners.marks.length > 0 && button("With scanners", () => view.fit(null, this.scanners.positions())),
+      h("span", { class: "field" }, h("span", {}, "from")),
+      Object.entries(directions).map(([name, direction]) => button(name, () => view.fit(direction), { class: "small", "aria-label": `look from ${name}` })),
       tick("grid", true, (shown) => { view.grid.setVisible(shown); view.draw(); }),
       tick("scanners", true, (shown) => this.scanners.setVisible(shown)),
+      this.paths.length > 0 && tick("barycentre path", false, (shown) => { for (const line of this.paths) line.visible = shown; view.draw(); }),
       tick("relief", true, (shown) => { view.dome.strength = shown ? 60 : 0; view.draw(); }),
       button("Save picture", async () => {
         const bytes = Uint8Array.from(atob(view.picture().split(",")[1]), (c) => c.charCodeAt(0));

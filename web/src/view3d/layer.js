@@ -6,6 +6,8 @@ import { category, kNone, mapped, table } from "../colour.js";
 import { kHeight, kLabel, kNumber, kPlain, meshShader, pointShader } from "./shaders.js";
 
 const kNumberSteps = 65534;
+const kTail = 0.01;
+const kWorth = 1.6;  // the full range is shown unless it is so many times that of 98 % of the points
 
 export class Layer {
   /** `base`: the point of the world that the view has as its origin [m]. */
@@ -69,8 +71,14 @@ export class Layer {
   #useNumbers() {
     this.uniforms.source.value = this.column ? kNumber : kHeight;
     if (this.column) this.#setEntries(this.value.raw(this.column));
+    this.map = this.#isSigned() ? "blue to red" : this.map === "blue to red" ? "viridis" : this.map;
     this.setTable(table(this.map), 256, THREE.LinearFilter);
-    this.setRange(...this.fullRange());
+    this.setRange(...this.goodRange());
+  }
+
+  /** Columns that are off to either side of zero. */
+  #isSigned() {
+    return this.column && this.column.lo < 0 && this.column.hi > 0 && /deviation|distance|signed|difference/.test(this.column.name);
   }
 
   #useLabels() {
@@ -94,6 +102,16 @@ export class Layer {
     if (this.column) return [this.column.lo, this.column.hi];
     const [lo, hi] = this.value.bounds();
     return [lo[2], hi[2]];
+  }
+
+  /** The full range, without the few that would take most of it; about zero for signed columns. */
+  goodRange() {
+    if (!this.column) return this.fullRange();
+    const full = this.fullRange();
+    const inner = [kTail, 1 - kTail].map((share) => this.value.quantile(this.column, share));
+    let [lo, hi] = (full[1] - full[0]) > kWorth * (inner[1] - inner[0]) && inner[1] > inner[0] ? inner : full;
+    if (this.#isSigned()) hi = Math.max(-lo, hi);
+    return [this.#isSigned() ? -hi : lo, hi];
   }
 
   setRange(lo, hi) {

@@ -9,9 +9,8 @@ import { labelColour } from "./layer.js";
 const kMostLabels = 14;
 
 /** What the colours of a layer mean; null where there is only one. `changed()` after a label is hidden. */
-export function legendOf(layer, changed) {
+export function legendOf(layer, changed, title = layer.value.id) {
   if (layer.key === "plain") return null;
-  const title = layer.value.id;
   if (layer.isNumeric()) return numberLegend(layer, title);
   return labelLegend(layer, title, changed);
 }
@@ -21,7 +20,9 @@ function numberLegend(layer, title) {
   const [lo, hi] = layer.range;
   const scale = scaleFor(unit, Math.max(Math.abs(lo), Math.abs(hi)));
   const name = layer.column ? layer.column.name : "height";
-  const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => h("span", {}, number((lo + t * (hi - lo)) * scale.factor, 3)));
+  const full = layer.fullRange();
+  const beyond = { 0: full[0] < lo ? "\u2264\u2009" : "", 1: full[1] > hi ? "\u2265\u2009" : "" };
+  const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => h("span", {}, (beyond[t] ?? "") + number((lo + t * (hi - lo)) * scale.factor, 3)));
   return h("figure", { class: "legend" },
     h("figcaption", {}, h("b", {}, heading(name, scale.unit)), " ", h("small", {}, title)),
     h("div", { class: "bar", style: { background: gradient(layer.map) } }),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // The list of values beside a view: what is shown and how.
 import { css, mapNames } from "../colour.js";
-import { choice, h, newId, tick } from "../dom.js";
+import { button, choice, h, newId, tick } from "../dom.js";
 import { integer, scaleFor } from "../format.js";
 
 /** A row for a value. `entry` has the value, its layer once shown, and `show(visible)`, `changed()`. */
@@ -98,6 +98,7 @@ function rangeFields(entry, refill) {
   return [
     field("from", lo, (x) => layer.setRange(x, layer.range[1])),
     field("to", hi, (x) => layer.setRange(layer.range[0], x)),
+    button("all", () => { layer.setRange(...layer.fullRange()); refill(); entry.changed(); }, { class: "small", title: "from the least to the greatest value" }),
     choice("map", mapNames.map((name) => [name, name]), layer.map, (map) => { layer.setMap(map); refill(); entry.changed(); }),
   ];
 }

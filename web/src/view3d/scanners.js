@@ -10,6 +10,11 @@ export class Scanners {
     this.shown = true;
   }
 
+  /** Where the scanners of what is shown stood [m]. */
+  positions() {
+    return this.marks.map((mark) => mark.point);
+  }
+
   refresh(values) {
     for (const mark of this.marks) mark.remove();
     const seen = new Set();
@@ -22,7 +27,7 @@ export class Scanners {
         seen.add(key);
         const mark = this.view.marks.add(sensor.position, name, "scanner");
         mark.show(this.shown);
-        this.marks.push(mark);
+        this.marks.push({ ...mark, point: sensor.position });
       });
     }
     this.view.draw();
@@ -40,6 +45,7 @@ export function pathLine(view, points, colour) {
   const geometry = new THREE.BufferGeometry().setFromPoints(points.map((point) => view.relative(point)));
   const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
   line.frustumCulled = false;
+  line.visible = false;
   view.addObject(line);
   return line;
 }

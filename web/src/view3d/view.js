@@ -77,9 +77,13 @@ export class View {
     return new THREE.Vector3(...point.map((x, axis) => x - this.base[axis]));
   }
 
-  /** Looks at all that is visible from `direction` (towards the camera), else from where it looks now. */
-  fit(direction) {
+  /**
+   * Looks at all that is visible, and at `more` points, from `direction` (towards the camera), else from
+   * where it looks now.
+   */
+  fit(direction, more = []) {
     const box = this.box() ?? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+    for (const point of more) box.expandByPoint(this.relative(point));
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     this.radius = Math.max(sphere.radius, 1e-6);
     const towards = direction ? new THREE.Vector3(...direction).normalize()
