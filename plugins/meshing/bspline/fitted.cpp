@@ -11,6 +11,7 @@
 #include "bspline/refine.hpp"
 #include "geometry/thinning.hpp"
 #include "geometry/viewpoint.hpp"
+#include "knots.hpp"
 #include "unroll.hpp"
 
 namespace velum::meshing {
@@ -29,7 +30,6 @@ constexpr double kLeastCosine = 0.25;  // noise at grazing rays is not trusted t
 constexpr double kSpans = 7.0;         // to begin with, along a square sheet
 constexpr int kSeeking = 3;            // rounds in which the roughness' weight is sought
 constexpr double kStiffer = 30.0;      // the first surface must not fold
-constexpr double kSeen = 0.25;         // mean residual of a cell that asks for knots / noise
 constexpr double kOutlier = 4.0;       // of the usual residual: counts half
 
 // The plane with `up` as its y axis, seen from the side of the sensors.
@@ -207,64 +207,12 @@ class Fitter {
   // Halves the spans in which the residuals of neighbouring points agree too well to be noise.
   bool refine() {
     Surface& s = sheet_.surface;
-    const std::vector<double> u = spans_to_halve(Along::u);
-    const std::vector<double> v = spans_to_halve(Along::v);
+    const std::vector<double> u = spans_to_halve(sheet_, weights_, Along::u);
+    const std::vector<double> v = spans_to_halve(sheet_, weights_, Along::v);
     for (const double at : u) bspline::insert_knot(s, Along::u, at);
     for (const double at : v) bspline::insert_knot(s, Along::v, at);
     sheet_.knots_added += static_cast<int>(u.size() + v.size());
     return !u.empty() || !v.empty();
-  }
-
-  // In each span the residuals are summed over cells of half a span by half a span. Sums of noise
-  // have the variance of noise: their squares, so scaled, are 1 on average.
-  [[nodiscard]] std::vector<double> spans_to_halve(Along along) const {
-    constexpr Index kFewest = 6;  // points of a cell that is heard
-    const Surface& s = sheet_.surface;
-    const auto cell_of = [](const VectorXd& knots, int degree, double x) {
-      Index span = degree;
-      while (span + 1 < bspline::count_of(knots, degree) && knots[span + 1] <= x) ++span;
-      const bool upper = x > 0.5 * (knots[span] + knots[span + 1]);
-      return 2 * (span - degree) + (upper ? 1 : 0);
-    };
-    const Index rows = 2 * (bspline::count_of(s.knots_u, s.degree_u) - s.degree_u);
-    const Index columns = 2 * (bspline::count_of(s.knots_v, s.degree_v) - s.degree_v);
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows, columns);
-    Eigen::MatrixXd variance = sum;
-    Eigen::MatrixXd mass = sum;
-    Eigen::MatrixXi count = Eigen::MatrixXi::Zero(rows, columns);
-    for (Index i = 0; i < positions_.cols(); ++i) {
-      const Index a = cell_of(s.knots_u, s.degree_u, sheet_.uv(0, i));
-      const Index b = cell_of(s.knots_v, s.degree_v, sheet_.uv(1, i));
-      sum(a, b) += weights_[i] * sheet_.residual[i];
-      mass(a, b) += weights_[i];
-      variance(a, b) += weights_[i] * sheet_.noise * sheet_.noise;
-      ++count(a, b);
-    }
-    const VectorXd& knots = along == Along::u ? s.knots_u : s.knots_v;
-    const int degree = along == Along::u ? s.degree_u : s.degree_v;
-    std::vector<double> found;
-    const Index spans = (along == Along::u ? rows : columns) / 2;
-    for (Index k = 0; k < spans; ++k) {
-      double squares = 0.0;
-      double shape = 0.0;
-      double cells = 0.0;
-      for (Index half = 0; half < 2; ++half)
-        for (Index other = 0; other < (along == Along::u ? columns : rows); ++other) {
-          const Index a = along == Along::u ? 2 * k + half : other;
-          const Index b = along == Along::u ? other : 2 * k + half;
-          if (count(a, b) < kFewest || !(variance(a, b) > 0.0)) continue;
-          squares += sum(a, b) * sum(a, b) / variance(a, b);
-          shape += std::pow(sum(a, b) / mass(a, b), 2);
-          cells += 1.0;
-        }
-      // What is left of shape must also be seen beside the noise: knots cost stability.
-      const bool structured = cells > 0.0 && squares > cells + 3.0 * std::sqrt(2.0 * cells) &&
-                              shape > kSeen * kSeen * cells * sheet_.noise * sheet_.noise;
-      const double low = knots[k + degree];
-      const double high = knots[k + degree + 1];
-      if (structured && high > low) found.push_back(0.5 * (low + high));
-    }
-    return found;
   }
 
   ConstPoints positions_;

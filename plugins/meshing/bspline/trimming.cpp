@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "trimming.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <optional>
 
-#include "sail/border.hpp"
+#include "closing.hpp"
 #include "sail/lattice.hpp"
+#include "scan_edge.hpp"
 
 namespace velum::meshing {
 namespace {
@@ -21,7 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kReach = 6;         // cells inward to the next return
 constexpr double kInside = 0.75;  // scan steps inside the curve from which on a return counts less
 constexpr int kRounds = 5;
 
@@ -32,68 +30,6 @@ Matrix3Xd upright(const Matrix2Xd& plane) {
   points.row(2) = plane.row(1);
   return points;
 }
-
-// The edge's points next to the outline, each half a scan step beyond a last return.
-class ScanEdge {
- public:
-  ScanEdge(const Cloud& cloud, const FittedSheet& sheet)
-      : lattice_(cloud), patch_(sheet.surface), sheet_(sheet) {
-    for (std::size_t i = 0; i < cloud.sensors().size(); ++i)
-      eyes_.emplace_back(cloud.sensor_position(i).cast<double>());
-  }
-
-  sail::EdgePoints find(const PointOutline& outline, const Matrix2Xd& plane) {
-    for (const std::int32_t vertex : outline.near) {
-      const sail::Cell cell = lattice_.cell(vertex);
-      if (cell.sensor >= eyes_.size()) continue;
-      for (const bool lines : {false, true})
-        for (const int sign : {-1, 1}) add(vertex, cell, lines, sign, plane);
-    }
-    sail::EdgePoints edge;
-    const auto n = static_cast<Index>(places_.size());
-    edge.points = Matrix3Xd::Zero(3, n);
-    edge.moves = Matrix3Xd::Zero(3, n);
-    edge.weights = VectorXd::Ones(n);
-    edge.arc.resize(n);
-    for (Index i = 0; i < n; ++i) {
-      const Vector2d place = places_[static_cast<std::size_t>(i)];
-      const Vector2d move = moves_[static_cast<std::size_t>(i)];
-      edge.points.col(i) << place.x(), 0.0, place.y();
-      edge.moves.col(i) << move.x(), 0.0, move.y();
-    }
-    return edge;
-  }
-
- private:
-  void add(std::int32_t vertex, const sail::Cell& cell, bool lines, int sign,
-           const Matrix2Xd& plane) {
-    if (!lattice_.ends_at(cell, lines, sign)) return;
-    const sail::Lattice::Inner inner = lattice_.inner(cell, lines, sign, kReach);
-    if (inner.vertex < 0) return;
-    // On the surface, where noise along the rays does not matter.
-    const Vector2d uv = sheet_.uv.col(vertex);
-    const bspline::Derivatives d = patch_.derivatives(uv);
-    const auto at =
-        sail::half_step_on(eyes_[cell.sensor], d.point, patch_.at(sheet_.uv.col(inner.vertex)),
-                           inner.steps, d.normal());
-    if (!at) return;
-    Eigen::Matrix<double, 3, 2> slopes;
-    slopes << d.du, d.dv;
-    const Vector2d step =
-        (slopes.transpose() * slopes).ldlt().solve(slopes.transpose() * (*at - d.point));
-    const Vector2d place = sheet_.frame.to_plane(uv + step);
-    if (!place.allFinite()) return;
-    places_.push_back(place);
-    moves_.emplace_back(place - plane.col(vertex));
-  }
-
-  sail::Lattice lattice_;
-  bspline::Patch patch_;
-  const FittedSheet& sheet_;
-  std::vector<Vector3d> eyes_;
-  std::vector<Vector2d> places_;
-  std::vector<Vector2d> moves_;
-};
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -200,72 +136,6 @@ void raise_head(const sail::Outline& outline, const Matrix2Xd& plane, sail::Bord
   border.top = sail::Curve(edge);
 }
 
-// Where segments a b and c d cross, the share of the way from a to b.
-std::optional<double> crossing(const Vector2d& a, const Vector2d& b, const Vector2d& c,
-                               const Vector2d& d) {
-  const Vector2d r = b - a;
-  const Vector2d s = d - c;
-  const double cross = r.x() * s.y() - r.y() * s.x();
-  if (std::abs(cross) < 1e-300) return std::nullopt;
-  const Vector2d gap = c - a;
-  const double t = (gap.x() * s.y() - gap.y() * s.x()) / cross;
-  const double w = (gap.x() * r.y() - gap.y() * r.x()) / cross;
-  if (t < 0.0 || t > 1.0 || w < 0.0 || w > 1.0) return std::nullopt;
-  return t;
-}
-
-// Where a polygon crosses itself, as luff and leech do above a pointed head, the shorter part is
-// cut off. True when there was such a place.
-bool cut_crossing(std::vector<Vector2d>& points) {
-  const std::size_t n = points.size();
-  for (std::size_t i = 0; i + 2 < n; ++i)
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j + 1 == n) continue;
-      const auto t = crossing(points[i], points[i + 1], points[j], points[(j + 1) % n]);
-      if (!t) continue;
-      const Vector2d at = points[i] + *t * (points[i + 1] - points[i]);
-      const auto begin = points.begin();
-      const auto from = static_cast<std::ptrdiff_t>(i + 1);
-      const auto to = static_cast<std::ptrdiff_t>(j + 1);
-      std::vector<Vector2d> left{at};
-      if (2 * (j - i) < n) {
-        left.insert(left.end(), begin + to, points.end());
-        left.insert(left.end(), begin, begin + from);
-      } else {
-        left.insert(left.end(), begin + from, begin + to);
-      }
-      points = std::move(left);
-      return true;
-    }
-  return false;
-}
-
-// The curves as one closed loop, counter-clockwise: foot, leech, top, luff downward.
-TrimmingCurve closed(const sail::Border& border) {
-  std::vector<Vector2d> points;
-  TrimmingCurve curve;
-  for (const sail::Curve& side :
-       {border.foot, border.leech, border.top.reversed(), border.luff.reversed()}) {
-    const double least = 1e-7 * side.length() + 1e-300;
-    curve.corners.push_back(static_cast<Index>(points.size()));
-    for (Index i = 0; i + 1 < side.points().cols(); ++i) {
-      const Vector2d p(side.points()(0, i), side.points()(2, i));
-      if (points.empty() || (p - points.back()).norm() > least) points.push_back(p);
-    }
-  }
-  std::vector<Vector2d> corners;
-  for (const Index corner : curve.corners)
-    corners.push_back(points[std::min(static_cast<std::size_t>(corner), points.size() - 1)]);
-  while (points.size() > 4 && cut_crossing(points)) {
-  }
-  const auto n = static_cast<Index>(points.size());
-  curve.loop.resize(2, n);
-  for (Index i = 0; i < n; ++i) curve.loop.col(i) = points[static_cast<std::size_t>(i)];
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    (curve.loop.colwise() - corners[k]).colwise().squaredNorm().minCoeff(&curve.corners[k]);
-  return curve;
-}
-
 // A curve that leaves the points behind was led astray.
 void check_near(const TrimmingCurve& curve, const Matrix2Xd& plane, const PointOutline& found) {
   constexpr double kFar = 6.0;  // spacings
@@ -305,7 +175,7 @@ TrimmingCurve smooth_border(const Cloud& cloud, const FittedSheet& sheet, const 
   sail::EdgePoints edge = sail::edge_as_is(outline);
   VectorXd steps = VectorXd::Constant(edge.arc.size(), spacing);
   if (sail::is_scan(cloud)) {
-    edge = ScanEdge(cloud, sheet).find(found, plane);
+    edge = scan_edge(cloud, sheet, found, plane);
     std::vector<double> lengths;
     steps.resize(edge.arc.size());
     for (Index i = 0; i < edge.arc.size(); ++i) {
