@@ -187,7 +187,7 @@ void OutputFolder::note(const std::string& graph, const std::vector<std::string>
 
 fs::path OutputFolder::scratch() const {
   std::error_code failed;
-  const fs::path folder = path_ / kScratchName;
+  fs::path folder = path_ / kScratchName;
   fs::create_directory(folder, failed);
   if (failed) refuse(folder, "the folder cannot be made: " + failed.message(), "");
   return folder;

@@ -57,7 +57,8 @@ bool same_plane(const GrownPlane& large, const GrownPlane& small, double toleran
 
 }  // namespace
 
-std::vector<GrownPlane> join_planes(const PlaneCells& cells, std::vector<std::vector<std::int32_t>> regions) {
+std::vector<GrownPlane> join_planes(const PlaneCells& cells,
+                                    std::vector<std::vector<std::int32_t>> regions) {
   std::stable_sort(regions.begin(), regions.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
   std::vector<GrownPlane> joined;
@@ -73,8 +74,9 @@ std::vector<GrownPlane> join_planes(const PlaneCells& cells, std::vector<std::ve
       whole->fit = settle(cells, whole->cells);
     }
   }
-  std::stable_sort(joined.begin(), joined.end(),
-                   [](const GrownPlane& a, const GrownPlane& b) { return a.cells.size() > b.cells.size(); });
+  std::stable_sort(joined.begin(), joined.end(), [](const GrownPlane& a, const GrownPlane& b) {
+    return a.cells.size() > b.cells.size();
+  });
   return joined;
 }
 
