@@ -15,6 +15,7 @@ void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_study(CLI::App& app);
 void add_rerun(CLI::App& app);
+void add_report(CLI::App& app);
 void add_list(CLI::App& app);
 void add_describe(CLI::App& app);
 void add_schema(CLI::App& app);

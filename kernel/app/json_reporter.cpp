@@ -67,6 +67,9 @@ class JsonReporter final : public Reporter {
     complain(run::format(*node.failure));
   }
   void file_written(const run::FileRecord& file) override { emit("file", run::to_json(file)); }
+  void report_written(const std::filesystem::path& file) override {
+    emit("report", {{"path", file.string()}});
+  }
   void run_ended(const run::RunResult& result) override {
     emit("end", {{"status", run::name_of(result.record.status)},
                  {"exit", run::exit_status(result.record)},

@@ -101,6 +101,7 @@ int run(int argc, char** argv) {
   add_check(app);
   add_study(app);
   add_rerun(app);
+  add_report(app);
   add_list(app);
   add_describe(app);
   add_schema(app);

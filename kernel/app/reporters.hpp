@@ -17,6 +17,8 @@ class Reporter : public run::Observer {
   /// The run cannot begin, or its record not be written.
   virtual void refused(const Error& error) = 0;
   virtual void run_started(const run::RunRecord& record, const std::filesystem::path& out) = 0;
+  /// Before the run's end is told.
+  virtual void report_written(const std::filesystem::path& file) = 0;
   virtual void run_ended(const run::RunResult& result) = 0;
 };
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "again.hpp"
 #include "commands.hpp"
 #include "console.hpp"
-#include "graph/graph.hpp"
 #include "reporters.hpp"
 #include "run/compare.hpp"
 #include "run/signals.hpp"
@@ -25,51 +25,14 @@ struct Options {
   int threads = 0;
 };
 
-/// A folder that goes when the comparison is done.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "velum-rerun-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr)
-      throw Error(Fault::output, "no temporary folder can be made").at(name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-run::RunOptions options_of(const run::Json& record, const Options& options) {
-  run::RunOptions result;
-  result.threads = options.threads > 0 ? options.threads : record.at("threads").get<int>();
-  if (result.threads < 1)
-    throw Error(Fault::input, fmt::format("its threads are {}; there must be one", result.threads))
-        .at(options.record.string());
-  result.seed = record.at("seed").get<std::uint64_t>();
-  for (const run::Json& node : record.at("nodes"))
-    result.only.push_back(node.at("name").get<std::string>());
-  result.cancel = &run::stop_requested();
-  return result;
-}
-
 int rerun(const run::Json& record, const Options& options, const fs::path& out) {
   plugins::Registry registry;
-  const graph::Loaded loaded = graph::load_text(
-      record.at("graph").at("resolved").get<std::string>(),
-      record.at("graph").at("path").get<std::string>(), {}, registry, {.out = out});
+  const graph::Loaded loaded = graph_of(record, out, registry);
   if (!loaded.graph) {
     complain(graph::format(loaded.diagnostics));
     return graph::exit_status(loaded.diagnostics);
   }
-  run::RunOptions asked = options_of(record, options);
-  asked.out = out;
+  const run::RunOptions asked = options_of(record, options.threads, out, options.record.string());
   run::catch_signals();
   const auto reporter = make_text_reporter(on_terminal());
   const run::RunResult result =

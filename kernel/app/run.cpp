@@ -4,11 +4,15 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "console.hpp"
 #include "graph/graph.hpp"
+#include "report/run_report.hpp"
+#include "report/watch.hpp"
 #include "reporters.hpp"
+#include "run/output_folder.hpp"
 #include "run/signals.hpp"
 
 namespace velum::app {
@@ -49,21 +53,70 @@ run::RunOptions run_options(const Options& options) {
   return result;
 }
 
+/// What a run leaves besides its record, for people to look at.
+class Extras {
+ public:
+  /// Throws Error (Fault::output) when it cannot be made, before anything runs.
+  Extras(const graph::Graph& graph, plugins::Registry& registry, const Options& options)
+      : registry_(registry) {
+    if (!options.report) return;
+    page_.emplace();
+    watch_ = std::make_unique<report::ViewWatch>(graph, report::kRunLimit, options.threads);
+  }
+
+  void ask(run::RunOptions& options) {
+    if (!watch_) return;
+    options.witnesses.push_back(watch_.get());
+    options.recorded = [this](const run::RunResult& result) {
+      leave(result.record_file.parent_path());
+    };
+  }
+
+  /// 6 where the report could not be written.
+  int tell(Reporter& reporter, const std::filesystem::path& out) const {
+    if (!watch_) return 0;
+    for (const std::string& trouble : watch_->troubles())
+      complain("warning: report: " + trouble + "\n");
+    if (!failed_) reporter.report_written(out / run::kReportName);
+    if (failed_) complain(format(*failed_));
+    return failed_ ? static_cast<int>(failed_->fault()) : 0;
+  }
+
+ private:
+  // The run itself went as its record says.
+  void leave(const std::filesystem::path& folder) {
+    try {
+      report::leave_run_report(folder, *page_, watch_->views(), registry_);
+    } catch (const Error& error) {
+      failed_ = error;
+    } catch (const std::exception& error) {
+      failed_ = Error(Fault::output, std::string("the report could not be made: ") + error.what());
+    }
+  }
+
+  plugins::Registry& registry_;
+  std::optional<report::Page> page_;
+  std::unique_ptr<report::ViewWatch> watch_;
+  std::optional<Error> failed_;
+};
+
 int run_checked(const graph::Graph& graph, plugins::Registry& registry, const Options& options,
                 Reporter& reporter) {
+  Extras extras(graph, registry, options);
   run::catch_signals();
+  run::RunOptions asked = run_options(options);
+  extras.ask(asked);
   const run::RunResult result = run::run_graph(
-      graph, registry, run_options(options), reporter,
+      graph, registry, asked, reporter,
       [&](const run::RunRecord& record) { reporter.run_started(record, options.out); });
+  const int report_status = extras.tell(reporter, options.out);
   reporter.run_ended(result);
   if (result.abandoned) std::_Exit(run::kInterrupted);
-  return run::exit_status(result.record);
+  const int status = run::exit_status(result.record);
+  return status != 0 ? status : report_status;
 }
 
 void run_command(Options options) {
-  if (options.report)
-    throw Error(Fault::graph, "--report is not there yet: this version writes the record only")
-        .hint("leave --report out; run.json holds all figures");
   if (options.out.empty()) options.out = options.graph.stem().string() + ".out";
   const auto reporter = options.json ? make_json_reporter() : make_text_reporter(on_terminal());
   plugins::Registry registry;

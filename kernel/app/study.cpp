@@ -6,12 +6,15 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "console.hpp"
 #include "graph/settings.hpp"
 #include "graph/units.hpp"
+#include "report/study_report.hpp"
 #include "run/cache.hpp"
+#include "run/output_folder.hpp"
 #include "run/run.hpp"
 #include "run/signals.hpp"
 #include "study/tables.hpp"
@@ -79,6 +82,25 @@ class Progress {
   std::size_t ended_ = 0;
 };
 
+/// 6 where report.html could not be written; 0 where only the page for it is not installed.
+int leave_report(const std::filesystem::path& out, plugins::Registry& registry) {
+  std::optional<report::Page> page;
+  try {
+    page.emplace();
+  } catch (const Error& error) {
+    complain("warning: no report.html: " + plugins::one_line(error) + "\n");
+    return 0;
+  }
+  try {
+    report::write_study_report(out, *page, registry);
+  } catch (const Error& error) {
+    complain(format(error));
+    return static_cast<int>(Fault::output);
+  }
+  print((out / run::kReportName).string() + "\n");
+  return 0;
+}
+
 int report(const study::StudyResult& result, const std::filesystem::path& out) {
   if (!result.finished) {
     complain(fmt::format("interrupted: {} of {} cells are kept in {}; --resume goes on\n",
@@ -117,8 +139,13 @@ void study_command(Options options) {
   }
   run::catch_signals();
   options.study.cancel = &run::stop_requested();
-  const int status = report(study::run_study(*loaded.graph, registry, options.study, Progress()),
-                            options.study.out);
+  const study::StudyResult result =
+      study::run_study(*loaded.graph, registry, options.study, Progress());
+  int status = report(result, options.study.out);
+  if (result.finished) {
+    const int report_status = leave_report(options.study.out, registry);
+    if (report_status != 0) status = report_status;
+  }
   if (status != 0) throw Exit{status};
 }
 

@@ -87,6 +87,9 @@ class TextReporter final : public Reporter {
     print(bars);
     bars_ = running.size();
   }
+  void report_written(const std::filesystem::path& file) override {
+    line("report: " + file.string());
+  }
   void run_ended(const run::RunResult& result) override {
     const run::RunRecord& record = result.record;
     const std::string kept = plural(record.files.size(), "file");

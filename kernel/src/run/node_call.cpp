@@ -80,6 +80,7 @@ std::shared_ptr<const Results> NodeRunner::make(State& state, int threads) {
   try {
     auto results = std::make_shared<const Results>(run_stage(state, threads));
     keep(state, *results);
+    show(state, *results);
     hand_over(state, results);
     return results;
   } catch (const Stopped&) {

@@ -80,9 +80,8 @@ void NodeRunner::run(std::size_t node, int threads) {
     if (cached) {
       const std::lock_guard lock(mutex_);
       state.record.seconds = std::chrono::duration<double>(Clock::now() - began).count();
-    } else {
-      make(state, threads);
     }
+    if (!cached || !show_cached(state)) make(state, threads);
   } catch (const Stopped&) {  // the state tells why
   }
   bool read_by_nobody = false;

@@ -34,6 +34,7 @@ struct ExecuteOptions {
   std::vector<std::string> only;  ///< with what they need; empty: every node
   Cache* cache = nullptr;
   const std::atomic<bool>* cancel = nullptr;
+  std::vector<Witness*> witnesses;
 };
 
 /// The nodes of one run: what each takes, makes, and what is recorded of it. Says nothing of when
@@ -111,6 +112,11 @@ class NodeRunner {
   std::string who_emptied(const State& state);
   void record_files(const State& state);
   void keep(State& state, const Results& results);
+
+  // node_show.cpp: what witnesses see
+  bool show_cached(const State& state);
+  void show(const State& state, const Results& results);
+  std::vector<Wired> inputs_again(const State& state);
 
   // node_key.cpp: what results depend on
   Json describe_inputs(const State& state);

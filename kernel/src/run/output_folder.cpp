@@ -42,7 +42,8 @@ std::optional<Earlier> from_record(const fs::path& file) {
   if (!fs::is_regular_file(file, failed)) return std::nullopt;
   try {
     const Json json = Json::parse(FileContent(file, kRecordLimit).text());
-    Earlier earlier{json.at("graph").at("path").get<std::string>(), {kRecordName, kReportName}};
+    Earlier earlier{json.at("graph").at("path").get<std::string>(),
+                    {kRecordName, kReportName, kViewsName}};
     for (const Json& entry : json.at("files"))
       earlier.files.push_back(entry.at("path").get<std::string>());
     return earlier;
@@ -173,7 +174,8 @@ void OutputFolder::remove_earlier() {
 
 // Before anything is removed, so that whenever this run is killed the next one knows what is ours.
 void OutputFolder::note(const std::string& graph, const std::vector<std::string>& files) {
-  std::string text = fmt::format("{}\n{}\n{}\n{}\n", ::getpid(), graph, kRecordName, kReportName);
+  std::string text =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n", ::getpid(), graph, kRecordName, kReportName, kViewsName);
   for (const std::string& file : files) text += file + "\n";
   for (const fs::path& file : earlier_) text += file.string() + "\n";
   try {

@@ -46,5 +46,7 @@ class OutputFolder {
 
 inline constexpr const char* kRecordName = "run.json";
 inline constexpr const char* kReportName = "report.html";
+/// What the report shows of the run's values.
+inline constexpr const char* kViewsName = "views.bin";
 
 }  // namespace velum::run

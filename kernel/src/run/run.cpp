@@ -118,7 +118,8 @@ RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
                                                 .seed = options.seed,
                                                 .only = options.only,
                                                 .cache = cache ? &*cache : nullptr,
-                                                .cancel = options.cancel},
+                                                .cancel = options.cancel,
+                                                .witnesses = options.witnesses},
                                  observer);
   if (started) started(frame.around(executor->record()));
   const Ended ended = executor->run();
@@ -131,6 +132,7 @@ RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
   // Its threads are in a stage that does not return; the process ends with them.
   if (result.abandoned) static_cast<void>(executor.release());
   write_file(result.record_file, dump(to_json(result.record), 1) + "\n");
+  if (options.recorded) options.recorded(result);
   if (cache && !result.abandoned) cache->trim();
   return result;
 }

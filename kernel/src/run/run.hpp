@@ -12,6 +12,13 @@
 
 namespace velum::run {
 
+struct RunResult {
+  RunRecord record;
+  std::filesystem::path record_file;  ///< in the output folder
+  /// A stage did not return: leave by std::_Exit().
+  bool abandoned = false;
+};
+
 /// What a run is asked for beyond its graph.
 struct RunOptions {
   std::filesystem::path out;
@@ -21,13 +28,9 @@ struct RunOptions {
   std::filesystem::path cache;  ///< empty: none
   std::uint64_t cache_limit = Cache::kDefaultLimit;
   const std::atomic<bool>* cancel = nullptr;
-};
-
-struct RunResult {
-  RunRecord record;
-  std::filesystem::path record_file;
-  /// A stage did not return: leave by std::_Exit().
-  bool abandoned = false;
+  std::vector<Witness*> witnesses;
+  /// Called when the record is written, while the output folder is still held.
+  std::function<void(const RunResult&)> recorded;
 };
 
 /// Runs a graph into its output folder and writes the record there, also when a node fails or the

@@ -8,6 +8,7 @@
 
 #include "run/node_error.hpp"
 #include "run/run.hpp"
+#include "study/cell_views.hpp"
 #include "velum/files.hpp"
 
 namespace velum::study {
@@ -116,6 +117,8 @@ Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
                                             {.out = options.out, .variation = &variation});
     if (!loaded.graph) return invalid(loaded.diagnostics);
     run_what_is_timed(*loaded.graph, plan.study);
+    CellViews views(plan, cell, *loaded.graph, options.out, setup.threads);
+    views.ask(options);
     run::Observer nobody;
     return outcome_of(run::run_graph(*loaded.graph, registry, options, nobody).record, plan, setup);
   } catch (const Error& error) {
