@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/run.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "graph/graph.hpp"
+#include "report/pictures.hpp"
 #include "report/run_report.hpp"
 #include "report/watch.hpp"
 #include "reporters.hpp"
@@ -37,6 +39,8 @@ struct Options {
   std::uint64_t cache_size = run::Cache::kDefaultLimit;
   bool no_cache = false;
   bool report = false;
+  std::filesystem::path png;
+  std::string png_colour;
   bool json = false;
 };
 
@@ -59,12 +63,17 @@ class Extras {
   /// Throws Error (Fault::output) when it cannot be made, before anything runs.
   Extras(const graph::Graph& graph, plugins::Registry& registry, const Options& options)
       : registry_(registry) {
-    if (!options.report) return;
-    page_.emplace();
-    watch_ = std::make_unique<report::ViewWatch>(graph, report::kRunLimit, options.threads);
+    if (options.report) {
+      page_.emplace();
+      watch_ = std::make_unique<report::ViewWatch>(graph, report::kRunLimit, options.threads);
+    }
+    if (options.png.empty()) return;
+    refuse_within(options.png, options.out);
+    pictures_ = std::make_unique<report::PictureWatch>(options.png, options.png_colour);
   }
 
   void ask(run::RunOptions& options) {
+    if (pictures_) options.witnesses.push_back(pictures_.get());
     if (!watch_) return;
     options.witnesses.push_back(watch_.get());
     options.recorded = [this](const run::RunResult& result) {
@@ -72,17 +81,36 @@ class Extras {
     };
   }
 
-  /// 6 where the report could not be written.
+  /// 6 where report or pictures could not be written.
   int tell(Reporter& reporter, const std::filesystem::path& out) const {
-    if (!watch_) return 0;
+    int status = 0;
+    if (pictures_)
+      if (const auto failed = pictures_->failed()) status = tell(*failed);
+    if (!watch_) return status;
     for (const std::string& trouble : watch_->troubles())
       complain("warning: report: " + trouble + "\n");
-    if (!failed_) reporter.report_written(out / run::kReportName);
-    if (failed_) complain(format(*failed_));
-    return failed_ ? static_cast<int>(failed_->fault()) : 0;
+    if (failed_) return tell(*failed_);
+    reporter.report_written(out / run::kReportName);
+    return status;
   }
 
  private:
+  static int tell(const Error& error) {
+    complain(format(error));
+    return static_cast<int>(Fault::output);
+  }
+
+  // The next run would take the pictures for somebody's files.
+  static void refuse_within(const std::filesystem::path& folder, const std::filesystem::path& out) {
+    namespace fs = std::filesystem;
+    const fs::path outer = fs::weakly_canonical(fs::absolute(out));
+    const fs::path inner = fs::weakly_canonical(fs::absolute(folder));
+    if (std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end())
+      throw Error(Fault::graph, "the pictures would lie in the output folder")
+          .at(inner.string())
+          .hint("choose another folder with --png or --out");
+  }
+
   // The run itself went as its record says.
   void leave(const std::filesystem::path& folder) {
     try {
@@ -97,6 +125,7 @@ class Extras {
   plugins::Registry& registry_;
   std::optional<report::Page> page_;
   std::unique_ptr<report::ViewWatch> watch_;
+  std::unique_ptr<report::PictureWatch> pictures_;
   std::optional<Error> failed_;
 };
 
@@ -169,6 +198,11 @@ void add_run(CLI::App& app) {
   command->add_flag("--no-cache", options->no_cache, "run everything; keep nothing")
       ->excludes(cache);
   command->add_flag("--report", options->report, "also write report.html");
+  command->add_option("--png", options->png, "also draw each cloud and mesh into this folder")
+      ->type_name("DIR");
+  command
+      ->add_option("--png-colour", options->png_colour, "by this column; default: what tells most")
+      ->type_name("COLUMN");
   command->add_flag("--json", options->json, "one JSON event a line on standard output");
   command->callback([options] { run_command(*options); });
 }

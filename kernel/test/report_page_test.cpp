@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <numeric>
 
@@ -34,7 +35,9 @@ std::string between(const std::string& text, const std::string& begin, const std
 report::View points_view(Index count, std::size_t order) {
   Points points(3, count);
   for (Index i = 0; i < count; ++i)
-    points.col(i) = Eigen::Vector3f(static_cast<float>(i), static_cast<float>(order), 0.0F);
+    points.col(i) =
+        Eigen::Vector3f(static_cast<float>(i),
+                        std::sin(static_cast<float>(order + 1) * static_cast<float>(i)), 0.0F);
   report::View view = report::make_view(Cloud(points));
   view.node = "n" + std::to_string(order);
   view.output = "cloud";

@@ -70,8 +70,8 @@ Trouble folder_trouble(const fs::path& path, const std::string& name) {
 /// Files, and folders, that a run keeps for itself in the output folder.
 bool is_reserved(const fs::path& path) {
   const fs::path first = *path.begin();
-  return first == "run.json" || first == "report.html" || first == "study.json" ||
-         first == "study.csv" || first.string().starts_with(".velum.");
+  return first == "run.json" || first == "report.html" || first == "views.bin" ||
+         first == "study.json" || first == "study.csv" || first.string().starts_with(".velum.");
 }
 
 Trouble output_trouble(const fs::path& path, const std::string& name,

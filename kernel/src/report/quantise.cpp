@@ -15,15 +15,6 @@ namespace {
 constexpr std::array<std::string_view, 4> kBookkeeping = {column::kBeam, column::kLine,
                                                           column::kTilt, column::kTime};
 
-/// Columns carry no units: these are what stages mean by the names that they give.
-std::string unit_of(std::string_view name) {
-  static const std::map<std::string_view, std::string> kUnits = {
-      {"displacement", "m"}, {"distance", "m"},           {"height", "m"},
-      {"incidence", "rad"},  {"normal_deviation", "rad"}, {"deviation", "m"}};
-  const auto found = kUnits.find(name);
-  return found == kUnits.end() ? "" : found->second;
-}
-
 template <class T>
 std::vector<double> as_doubles(const Column& column) {
   const auto from = column.vector<T>();
@@ -70,6 +61,14 @@ std::vector<std::int64_t> integers_of(const std::string& name, const Column& col
 }
 
 }  // namespace
+
+std::string unit_of(std::string_view column) {
+  static const std::map<std::string_view, std::string> kUnits = {
+      {"displacement", "m"}, {"distance", "m"},           {"height", "m"},
+      {"incidence", "rad"},  {"normal_deviation", "rad"}, {"deviation", "m"}};
+  const auto found = kUnits.find(column);
+  return found == kUnits.end() ? "" : found->second;
+}
 
 void quantise_positions(const Cloud& cloud, View& view) {
   view.count = view.shown = static_cast<std::uint64_t>(cloud.size());

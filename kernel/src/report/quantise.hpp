@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "report/view.hpp"
@@ -17,6 +18,10 @@ void quantise_positions(const Cloud& cloud, View& view);
 [[nodiscard]] std::optional<ViewColumn> quantise(const std::string& name, const Column& column);
 /// Integers, of which negative ones mean none.
 [[nodiscard]] ViewColumn labels(const std::string& name, const std::vector<std::int64_t>& numbers);
+
+/// What stages mean by the names of columns, which carry no units: "m" of "distance"; "" where it
+/// is not known.
+[[nodiscard]] std::string unit_of(std::string_view column);
 
 /// The elements of a column of width 1 as numbers.
 [[nodiscard]] std::vector<double> numbers_of(const Column& column);
