@@ -8,13 +8,13 @@ import shutil
 import struct
 import unittest
 
-from support import CHAIN, CommandTest
+from support import CHAIN, TEST_PLUGINS, VELUM, CommandTest
 
 PAGE = "<html><body>\n<!-- velum:data -->\n</body></html>\n"
 ESCAPE = 'title = "</script><b>"\n'
 
 
-class ReportTest(CommandTest):
+class ReportCase(CommandTest):
     def setUp(self):
         super().setUp()
         self.page = self.write("page/report.html", PAGE)
@@ -36,6 +36,8 @@ class ReportTest(CommandTest):
     def values(self, name="g.out"):
         return {value["id"]: value for value in self.report(name)[0]["values"]}
 
+
+class ReportTest(ReportCase):
     def test_run_shows_every_value(self):
         self.write("g.toml", ESCAPE + CHAIN)
         out, error = self.velum("run", "g.toml", "--report")
@@ -115,6 +117,149 @@ class ReportTest(CommandTest):
         self.velum("run", "g.toml")
         names = sorted(path.name for path in (self.folder / "g.out").iterdir())
         self.assertEqual(names, ["n.txt", "run.json"])
+
+    def test_no_path_of_this_machine_but_those_of_the_record(self):
+        self.write("g.toml", CHAIN)
+        self.velum("run", "g.toml", "--report", "--png", "pictures")
+        record = (self.folder / "g.out/run.json").read_text()
+        report = (self.folder / "g.out/report.html").read_text()
+        for path in (self.folder, TEST_PLUGINS, VELUM):
+            self.assertEqual(report.count(str(path)), record.count(str(path)), path)
+
+    def test_report_again(self):
+        self.write("g.toml", CHAIN)
+        self.velum("run", "g.toml", "--report", "--no-cache")
+        path = self.folder / "g.out/report.html"
+        first = path.read_bytes()
+        path.unlink()
+        out, _ = self.velum("report", "g.out")
+        self.assertEqual(out, "g.out/report.html\n")
+        self.assertEqual(path.read_bytes(), first)
+        # Without what the run has left, from the run itself.
+        (self.folder / "g.out/views.bin").unlink()
+        self.velum("report", "g.out")
+        self.assertEqual(path.read_bytes(), first)
+        self.assertTrue((self.folder / "g.out/views.bin").exists())
+
+    def test_report_of_a_run_without_one(self):
+        self.write("g.toml", CHAIN)
+        self.velum("run", "g.toml")
+        record = (self.folder / "g.out/run.json").read_bytes()
+        self.velum("report", "g.out")
+        self.assertIn("moved.cloud", self.values())
+        self.assertEqual((self.folder / "g.out/run.json").read_bytes(), record)
+        self.assertEqual(self.leftovers(), [])
+
+    def test_report_of_a_failed_run(self):
+        self.write("g.toml", CHAIN + '[node.bad]\nuse = "test.throws"\nin = "moved"\n')
+        self.velum("run", "g.toml", status=1)
+        self.velum("report", "g.out")
+        self.assertIn("moved.cloud", self.values())
+
+    def test_what_cannot_be_shown_again_is_refused(self):
+        points = self.write("points.txt", "1 2 3\n4 5 6\n")
+        self.write("g.toml", 'units = "m"\n[node.a]\nuse = "test.read"\nfile = "points.txt"\n')
+        self.velum("run", "g.toml")
+        points.write_text("1 2 4\n4 5 6\n")
+        _, error = self.velum("report", "g.out", status=1)
+        self.assertIn("does not give the same again", error)
+        self.assertIn("points.txt", error)
+        self.assertFalse((self.folder / "g.out/report.html").exists())
+
+    def test_views_of_another_run_are_not_shown(self):
+        self.write("g.toml", CHAIN)
+        self.velum("run", "g.toml", "--report")
+        views = (self.folder / "g.out/views.bin").read_bytes()
+        self.velum("run", "g.toml", "--set", "start.count=7")
+        (self.folder / "g.out/views.bin").write_bytes(views)
+        self.velum("report", "g.out")
+        self.assertEqual(self.values()["start.cloud"]["count"], 7)
+        (self.folder / "g.out/views.bin").write_bytes(views[:-9])
+        _, error = self.velum("report", "g.out", status=5)
+        self.assertIn("views.bin", error)
+
+    def test_a_folder_without_results(self):
+        _, error = self.velum("report", ".", status=2)
+        self.assertIn("neither run.json nor study.json", error)
+
+    def test_pictures(self):
+        self.write("g.toml", CHAIN)
+        self.velum("run", "g.toml", "--png", "a")
+        self.velum("run", "g.toml", "--png", "b")  # from the cache
+        names = sorted(path.name for path in (self.folder / "a").iterdir())
+        self.assertEqual(names, ["moved.cloud.png", "start.cloud.png"])
+        for name in names:
+            first = (self.folder / "a" / name).read_bytes()
+            self.assertEqual(first[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertEqual(first, (self.folder / "b" / name).read_bytes())
+        _, error = self.velum("run", "g.toml", "--png", "g.out/pictures", status=2)
+        self.assertIn("the pictures would lie in the output folder", error)
+        self.write("file", "")
+        self.velum("run", "g.toml", "--png", "file", status=6)
+
+
+class StudyReportTest(ReportCase):
+    STUDY = """
+units = "m"
+[node.start]
+use = "test.numbers"
+[node.moved]
+use = "test.move"
+in = "start"
+[node.kept]
+use = "test.move"
+in = "moved"
+[study]
+title = "How far"
+repeat = 2
+measure = ["start.count"]
+[[study.vary]]
+node = "moved"
+alternatives = [
+  { title = "near", use = "test.move", by = 1 },
+  { title = "far", use = "test.move", by = 2 },
+  { title = "throw", use = "test.throws" },
+]
+"""
+
+    def test_study(self):
+        self.write("g.toml", self.STUDY)
+        out, _ = self.velum("study", "g.toml", status=3)
+        self.assertIn("g.out/report.html", out)
+        data, block = self.report()
+        self.assertEqual((data["kind"], data["title"]), ("study", "How far"))
+        self.assertEqual(data["study"], json.loads((self.folder / "g.out/study.json").read_text()))
+        self.assertEqual(data["csv"], (self.folder / "g.out/study.csv").read_text())
+        self.assertEqual(data["views_of"], {"variants": 2, "of": 3})
+        self.assertEqual(set(data["stages"]), {"test.numbers", "test.move"})
+        values = self.values()
+        self.assertEqual(
+            list(values), ["v1/moved.cloud", "v1/kept.cloud", "v2/moved.cloud", "v2/kept.cloud"]
+        )
+        self.assertEqual(values["v2/kept.cloud"]["variant"], "v2")
+        # Each variant once.
+        views = sorted(
+            str(path.relative_to(self.folder / "g.out/cells"))
+            for path in (self.folder / "g.out").rglob("views.bin")
+        )
+        self.assertEqual(len(views), len({name.split("/")[0] for name in views}))
+        first = (self.folder / "g.out/report.html").read_bytes()
+        self.velum("report", "g.out")
+        self.assertEqual((self.folder / "g.out/report.html").read_bytes(), first)
+
+    def test_study_without_its_cells(self):
+        self.write("g.toml", self.STUDY)
+        self.velum("study", "g.toml", status=3)
+        shutil.rmtree(self.folder / "g.out/cells")
+        self.velum("report", "g.out")
+        self.assertEqual(self.report()[0]["views_of"], {"variants": 0, "of": 3})
+
+    def test_study_without_a_page_is_complete(self):
+        self.page.unlink()
+        self.write("g.toml", self.STUDY)
+        _, error = self.velum("study", "g.toml", status=3)
+        self.assertIn("warning: no report.html", error)
+        self.assertTrue((self.folder / "g.out/study.json").exists())
 
 
 if __name__ == "__main__":

@@ -119,8 +119,11 @@ std::vector<Histogram> triangle_histograms(const Mesh& mesh) {
 Histogram distances(std::string name, const Cloud& cloud, const Cloud& target, Context& context) {
   // About one origin, which the index does not have to know of.
   const Eigen::Vector3f shift = (cloud.origin() - target.origin()).cast<float>();
-  const Points queries = cloud.positions().colwise() + shift;
-  std::vector<double> found(static_cast<std::size_t>(cloud.size()));
+  const Index step = (cloud.size() + kMostDistances - 1) / kMostDistances;
+  Points queries(3, cloud.empty() ? 0 : (cloud.size() + step - 1) / step);
+  for (Index i = 0; i < queries.cols(); ++i)
+    queries.col(i) = cloud.positions().col(i * step) + shift;
+  std::vector<double> found(static_cast<std::size_t>(queries.cols()));
   target.neighbours().each_nearest(ConstPoints(queries.data(), 3, queries.cols()), 1, context,
                                    [&](Index i, std::span<const Neighbour> nearest) {
                                      if (!nearest.empty())

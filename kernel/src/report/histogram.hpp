@@ -26,8 +26,12 @@ inline constexpr std::size_t kBins = 64;
 /// ones, as analysis.mesh_quality measures them.
 [[nodiscard]] std::vector<Histogram> triangle_histograms(const Mesh& mesh);
 
-/// Distance of each point of `cloud` to the nearest one of `target` [m].
+/// Distance of points of `cloud` to the nearest one of `target` [m]: of all of them, or of
+/// kMostDistances and fewer that are evenly chosen.
 [[nodiscard]] Histogram distances(std::string name, const Cloud& cloud, const Cloud& target,
                                   Context& context);
+
+/// Points that lie far from the target take long to measure; more would not show.
+inline constexpr Index kMostDistances = 30'000;
 
 }  // namespace velum::report

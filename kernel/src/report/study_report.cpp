@@ -50,8 +50,8 @@ std::optional<std::vector<View>> views_of(const fs::path& folder, const Json& va
       const FileContent record(cell / run::kRecordName);
       ViewsFile content = read_views(cell / run::kViewsName);
       if (content.record != hash_of(record.bytes())) continue;
-      for (const Json& node : Json::parse(record.text()).at("nodes"))
-        stages.insert(node.at("use").get<std::string>());
+      const Json told = Json::parse(record.text());
+      for (const Json& node : told.at("nodes")) stages.insert(node.at("use").get<std::string>());
       return std::move(content.views);
     } catch (const Error&) {  // removed or damaged: the next repeat may do
     } catch (const Json::exception&) {
