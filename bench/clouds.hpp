@@ -21,4 +21,8 @@ velum::test::Stage scanner(const std::string& name, velum::Index count);
 /// LAS 1.2, point format 0, steps of 0.1 mm.
 void write_las(const std::string& file, const velum::Cloud& cloud);
 
+/// What an LMS 511 sends at 25 Hz and 1/6 degree, back to back, for about `count` returns: CoLa A
+/// in `folder`/lines_a.bin, CoLa B in lines_b.bin, a recording of CoLa B in lines.vrec.
+void write_lines(const std::string& folder, velum::Index count);
+
 }  // namespace bench

@@ -38,6 +38,7 @@ void write_files(const bench::Input& input) {
   save("cloud.xyz", "xyz");
   save("cloud.csv", "csv");
   bench::write_las(input.folder + "/cloud.las", input.cloud);
+  bench::write_lines(input.folder, input.cloud.size());
 }
 
 bench::Input make_input(velum::Index count) {

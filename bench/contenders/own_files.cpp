@@ -15,11 +15,11 @@ void read_bytes(const std::string& file) {
   in.seekg(0).read(bytes.get(), static_cast<std::streamsize>(size));
 }
 
-void add_reader(Contenders& all, const std::string& operation, const std::string& file) {
+void add_reader(Contenders& all, const std::string& operation, const std::string& file,
+                const std::string& stage_id = "io.read_cloud") {
   Contender reader = own(operation, [=](const Input& input) {
-    return [stage = Stage("io.read_cloud").set("file", input.folder + "/" + file)]() mutable {
-      stage.run();
-    };
+    return
+        [stage = Stage(stage_id).set("file", input.folder + "/" + file)]() mutable { stage.run(); };
   });
   reader.file = file;
   all.push_back(reader);
@@ -44,6 +44,9 @@ Contenders own_files() {
   add_reader(all, "read PCD, text", "cloud_ascii.pcd");
   add_reader(all, "read XYZ, text", "cloud.xyz");
   add_reader(all, "read CSV, text", "cloud.csv");
+  add_reader(all, "scanner's telegrams, CoLa A", "lines_a.bin", "devices.replay");
+  add_reader(all, "scanner's telegrams, CoLa B", "lines_b.bin", "devices.replay");
+  add_reader(all, "scanner's recording", "lines.vrec", "devices.replay");
   all.push_back(writer("write PCD, binary", "cloud.pcd"));
   all.push_back(writer("write PLY, binary", "cloud.ply"));
   all.push_back(writer("write XYZ, text", "cloud.xyz"));

@@ -42,11 +42,12 @@ void convert(const Options& options) {
                              }});
   plugins::Registry registry;
   std::map<std::string, std::string> settings = {{"file", options.in.string()}};
-  if (!options.units.empty()) settings["units"] = options.units;
+  if (!options.units.empty() && from != FileKind::recording) settings["units"] = options.units;
   try {
     const Results results = run::run_single(registry, reader_of(read), settings, {}, context);
     const Value& value = results.at(0).value();
     settings["file"] = options.out.string();
+    if (!options.units.empty()) settings["units"] = options.units;
     static_cast<void>(run::run_single(registry, writer_of(to), settings, {{value}}, context));
     print(fmt::format("{}: {}\n", options.out.string(), run::in_words(run::summarise(value))));
   } catch (const Cancelled&) {

@@ -25,7 +25,8 @@ constexpr std::array kClouds = {".pcd", ".xyz", ".txt", ".csv", ".tsv", ".asc",
 constexpr std::array kMeshes = {".ply", ".stl", ".obj", ".off", ".vtk"};
 constexpr std::array kTransforms = {".json", ".txt"};
 constexpr const char* kKnown =
-    "known: pcd, ply, las (read only), xyz, txt, csv, vtk for clouds; ply, stl, obj, off, vtk for "
+    "known: pcd, ply, las and vrec (both read only), xyz, txt, csv, vtk for clouds; ply, stl, obj, "
+    "off, vtk for "
     "meshes; json, txt for transforms";
 
 std::string extension_of(const fs::path& path) {
@@ -85,6 +86,7 @@ bool is_matrix(const std::string& text) {
 FileKind kind_of_input(const fs::path& path) {
   const std::string extension = extension_of(path);
   const std::string text = beginning_of(path);
+  if (text.starts_with("VELUMREC")) return FileKind::recording;
   if (extension == ".ply" || extension == ".vtk")
     return has_faces(extension, text) ? FileKind::mesh : FileKind::cloud;
   if (extension == ".json") return FileKind::transform;
@@ -95,6 +97,7 @@ FileKind kind_of_input(const fs::path& path) {
 }
 
 FileKind kind_of_output(const fs::path& path, FileKind input) {
+  if (input == FileKind::recording) input = FileKind::cloud;  // that is what it becomes
   const std::string extension = extension_of(path);
   const bool cloud = is_one_of(extension, kClouds) && extension != ".las";
   const bool mesh = is_one_of(extension, kMeshes);
@@ -114,6 +117,7 @@ FileKind kind_of_output(const fs::path& path, FileKind input) {
 
 std::string reader_of(FileKind kind) {
   if (kind == FileKind::cloud) return "io.read_cloud";
+  if (kind == FileKind::recording) return "devices.replay";
   return kind == FileKind::mesh ? "io.read_mesh" : "io.read_transform";
 }
 

@@ -9,7 +9,7 @@
 namespace velum::app {
 
 /// What a file may hold, and so which reader and writer it takes.
-enum class FileKind { cloud, mesh, transform };
+enum class FileKind { cloud, mesh, transform, recording };
 
 /// By its name and, for formats that hold several kinds (ply, vtk, txt), by its beginning. Throws
 /// Error: Fault::graph when the file is not there or the format is unknown.

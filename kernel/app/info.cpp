@@ -107,7 +107,7 @@ void info(const Options& options) {
                              .log = {}});
   plugins::Registry registry;
   std::map<std::string, std::string> settings = {{"file", options.file.string()}};
-  if (!options.units.empty()) settings["units"] = options.units;
+  if (!options.units.empty() && kind != FileKind::recording) settings["units"] = options.units;
   try {
     const Results results = run::run_single(registry, reader_of(kind), settings, {}, context);
     const Value& value = results.at(0).value();

@@ -108,6 +108,7 @@ int run(int argc, char** argv) {
   add_new(app);
   add_convert(app);
   add_info(app);
+  add_record(app);
   return parse(app, argc, argv);
 }
 

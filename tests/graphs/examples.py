@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Velum authors
 # SPDX-License-Identifier: MIT
-"""examples.py VELUM FOLDER: every example.toml below FOLDER is a graph without mistakes that runs."""
+"""examples.py VELUM FOLDER: every example.toml below FOLDER is a graph without mistakes that runs;
+one that needs a real scanner is checked only."""
 import glob
 import os
 import subprocess
@@ -17,8 +18,12 @@ def main():
     faults = []
     for example in examples:
         with tempfile.TemporaryDirectory() as folder:
-            run = subprocess.run([velum, "run", example, "--out", os.path.join(folder, "out")],
-                                 check=False, capture_output=True, text=True)
+            with open(example, encoding="utf-8") as file:
+                scanner = "address = " in file.read()
+            command = [velum, "check", example]
+            if not scanner:
+                command = [velum, "run", example, "--out", os.path.join(folder, "out")]
+            run = subprocess.run(command, check=False, capture_output=True, text=True)
         if run.returncode != 0:
             faults.append(f"{example} ended with {run.returncode}:\n{run.stderr[-1500:]}")
     print(f"{len(examples) - len(faults)} of {len(examples)} examples run")

@@ -102,6 +102,8 @@ struct Scan {
 /// flags behind the channels, and bytes behind the last one are ignored. Throws Malformed.
 [[nodiscard]] Scan decode_scan(Reader& reader);
 [[nodiscard]] Scan decode_scan(const Telegram& telegram);
+/// The same without channels and what follows them: for those who only pass scans on.
+[[nodiscard]] Scan decode_head(Reader& reader);
 /// The payload of the telegram; decode_scan gives the same scan again. Channels hold at most 65535
 /// values, those of eight bits no value above 255.
 [[nodiscard]] std::string encode_scan(const Scan& scan, Dialect dialect);

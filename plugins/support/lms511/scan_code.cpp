@@ -192,11 +192,16 @@ bool is_scan(const Reader& reader) {
   return reader.name() == kName && (reader.kind() == "sSN" || reader.kind() == "sRA");
 }
 
-Scan decode_scan(Reader& reader) {
+Scan decode_head(Reader& reader) {
   if (!is_scan(reader)) reader.fail(ErrorCode::command_unknown, "the telegram is no scan");
   Scan scan;
   scan.polled = reader.kind() == "sRA";
   read_head(reader, scan);
+  return scan;
+}
+
+Scan decode_scan(Reader& reader) {
+  Scan scan = decode_head(reader);
   read_channels(reader, scan);
   read_tail(reader, scan);
   return scan;

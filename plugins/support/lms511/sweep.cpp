@@ -237,13 +237,22 @@ class Sweep {
 
 }  // namespace
 
+Eigen::Matrix3d axis_turn(Mounting mounting, double tilt) {
+  const bool plate = mounting == Mounting::plate;
+  const Eigen::Vector3d axis = plate ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ();
+  return Eigen::AngleAxisd(tilt, axis).toRotationMatrix();
+}
+
+Eigen::Matrix3d misalignment_turn(const Eigen::Vector3d& angles) {
+  return (Eigen::AngleAxisd(angles.z(), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(angles.y(), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(angles.x(), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
 Mount::Mount(Mounting mounting, const Calibration& calibration)
     : mounting_(mounting), lever_(calibration.lever) {
-  const Eigen::Matrix3d turn =
-      (Eigen::AngleAxisd(calibration.misalignment.z(), Eigen::Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(calibration.misalignment.y(), Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(calibration.misalignment.x(), Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d turn = misalignment_turn(calibration.misalignment);
   right_ = turn * Eigen::Vector3d::UnitX();
   ahead_ =
       turn * (mounting == Mounting::plate ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ());

@@ -48,6 +48,11 @@ struct SweepCounts {
   double skew = 0.0;
 };
 
+/// The turn of the plate by `tilt` [rad].
+[[nodiscard]] Eigen::Matrix3d axis_turn(Mounting mounting, double tilt);
+/// The turn of small angles about x, then y, then z.
+[[nodiscard]] Eigen::Matrix3d misalignment_turn(const Eigen::Vector3d& angles);
+
 /// Maps the plane of the beams to the cloud's frame at a tilt: y = axis turn * (misalignment * p +
 /// lever).
 class Mount {
