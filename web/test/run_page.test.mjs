@@ -167,7 +167,7 @@ test("colours follow their column, range and legend", async () => {
   const sum = async () => (await drawn(page, "#view canvas")).mean;
   const before = await sum();
   await page.getByLabel("colour of mesh.mesh by").selectOption("column:deviation");
-  const legend = await page.locator(".legend").innerText();
+  const legend = await page.locator(".legends .legend").innerText();
   assert.match(legend, /deviation \[mm\]/);
   assert.notDeepEqual(await sum(), before);
   const range = await page.evaluate(() => window.velum.explorer.entries.find((entry) => entry.value.id === "mesh.mesh").layer.range);

@@ -81,7 +81,7 @@ test("the front follows the directions of the two measures", async () => {
 });
 
 test("views are drawn and turn together until they are let go", async () => {
-  assert.equal(await page.locator(".pane").count(), 6);
+  assert.equal(await page.locator(".pane").count(), 4);
   await page.locator(".pane canvas").first().scrollIntoViewIfNeeded();
   assert.ok((await drawn(page, ".pane canvas")).share > 0.05);
   const positions = () => page.evaluate(() => window.velum.panes.map((view) => view.camera.position.toArray().map((x) => Math.round(1e6 * x))));

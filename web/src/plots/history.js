@@ -12,10 +12,17 @@ const columnOf = (rows, name) => {
   return at < 0 ? null : { unit: rows.columns[at].unit, values: rows.rows.map((row) => row[at] ?? NaN) };
 };
 
-export const isHistory = (value) => {
+const isHistory = (value) => {
   const names = value.rows?.columns.map((column) => column.name) ?? [];
   return names.includes("iteration") && names.includes("error") && value.rows.rows.length > 0;
 };
+
+/** One history a node: its table, else what its transform carries. */
+export function historiesOf(values) {
+  const found = new Map();
+  for (const value of values.filter(isHistory)) if (!found.has(value.node) || value.type === "table") found.set(value.node, value);
+  return [...found.values()];
+}
 
 /** Figures of one history table. */
 export function historyFigures(value) {

@@ -28,7 +28,7 @@ export const ink = () => (isDark() ? "#d7dee6" : "#25303b");
 /** What all plots share. */
 export function layoutFor(extra) {
   const line = isDark() ? "#2e3944" : "#dde3e9";
-  const axis = { gridcolor: line, linecolor: isDark() ? "#51606e" : "#9aa7b3", zerolinecolor: isDark() ? "#51606e" : "#9aa7b3", ticks: "outside", ticklen: 4, tickcolor: isDark() ? "#51606e" : "#9aa7b3", automargin: true, title: { standoff: 8 }, exponentformat: "power" };
+  const axis = { gridcolor: line, linecolor: isDark() ? "#51606e" : "#9aa7b3", zerolinecolor: isDark() ? "#51606e" : "#9aa7b3", ticks: "outside", ticklen: 4, tickcolor: isDark() ? "#51606e" : "#9aa7b3", automargin: true, title: { standoff: 8 }, exponentformat: "power", minexponent: 5 };
   const axes = {};
   for (const key of ["xaxis", "yaxis", "xaxis2", "yaxis2"]) {
     if (key.endsWith("2") && !extra[key]) continue;

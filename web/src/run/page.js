@@ -7,7 +7,7 @@ import { bytes, integer, moment, seconds } from "../format.js";
 import { frame, stagesSection } from "../frame.js";
 import { drawGraph } from "../graph/draw.js";
 import { histogramSection } from "../plots/histograms.js";
-import { historyFigures, isHistory } from "../plots/history.js";
+import { historiesOf, historyFigures } from "../plots/history.js";
 import { sailSection } from "../sails/section.js";
 import { Explorer } from "../view3d/explorer.js";
 import { withGraphics } from "../view3d/graphics.js";
@@ -20,7 +20,7 @@ import { tablesSection } from "./tables.js";
 
 export function runPage(report) {
   const { run } = report;
-  const histories = report.values.filter(isHistory);
+  const histories = historiesOf(report.values);
   return frame({
     kicker: "Velum \u00b7 run",
     title: report.title || run.graph.title || run.graph.path,

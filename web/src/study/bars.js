@@ -21,7 +21,7 @@ export function bars(study, { measure, log }, variants) {
       hovertemplate: `%{customdata[0]}: %{customdata[1]}<br>%{x:.4g} ${scale.unit}, %{customdata[2]} repeats<extra></extra>`,
     }],
     layout: {
-      xaxis: { title: study.titled(measure), ...(log && logAxis(variants.flatMap((variant) => study.values(variant, measure).map((value) => study.shown(measure, value))))), rangemode: "tozero" },
+      xaxis: { title: study.titled(measure), ...(log && logAxis(variants.map(({ summary }) => shown(summary[measure].mean)))), rangemode: "tozero" },
       yaxis: { tickvals: names.map((_, i) => i), ticktext: names, autorange: "reversed", ticks: "" },
       bargap: 0.3,
     },

@@ -5,8 +5,8 @@ import { shapes } from "../data/report.js";
 import { button, copyButton, download, h } from "../dom.js";
 import { integer } from "../format.js";
 import { frame, stagesSection } from "../frame.js";
-import { histogramSection } from "../plots/histograms.js";
 import { comparisonSection } from "./comparison.js";
+import { distributionsSection } from "./distributions.js";
 import { Study } from "./model.js";
 import { scatterSection } from "./scatter.js";
 import { sideBySide } from "./side_by_side.js";
@@ -33,7 +33,7 @@ export function studyPage(report) {
       ["comparison", "Comparison", measured && comparisonSection(study)],
       ["scatter", "One measure against another", study.names.length > 1 && scatterSection(study)],
       ["view", "Side by side", viewsOf(report, study)],
-      ["histograms", "Distributions", histogramSection(report.histograms)],
+      ["histograms", "Distributions", distributionsSection(report, study)],
       ["stages", "Stages: references and licences", stagesSection(report.stages)],
       ["again", "Run it again", again(study, report)],
     ],

@@ -3,13 +3,15 @@
 // Views of several variants beside each other, moved together, in the same colours.
 import { choice, h, tick } from "../dom.js";
 import { middleOf } from "../view3d/explorer.js";
+import { broadside } from "../view3d/broadside.js";
 import { withGraphics } from "../view3d/graphics.js";
-import { directions, keyHelp } from "../view3d/keys.js";
+import { keyHelp } from "../view3d/keys.js";
 import { Layer } from "../view3d/layer.js";
 import { legendOf } from "../view3d/legend.js";
 import { View } from "../view3d/view.js";
 
 const kMostPanes = 6;
+const kFewPanes = 4;
 
 export function sideBySide(values, study) {
   if (values.length === 0) return null;
@@ -19,6 +21,23 @@ export function sideBySide(values, study) {
     window.velum = { panes: sides.panes.map((pane) => pane.view) };  // for tests and the curious
     return sides.element;
   });
+}
+
+/** The best variant of each alternative; where those are few, the next ones too. */
+function firstOf(variants, study) {
+  const [measure] = study.names;
+  const sign = measure && study.better(measure) === "higher" ? -1 : 1;
+  const mean = (variant) => variant.summary?.[measure]?.mean;
+  const best = measure ? [...variants].sort((a, b) => sign * ((mean(a) ?? sign * Infinity) - (mean(b) ?? sign * Infinity)) || 0) : variants;
+  const taken = new Map();
+  const rank = new Map(best.map((variant) => {
+    const key = variant.axes[study.telling[0]?.name];
+    taken.set(key, (taken.get(key) ?? 0) + 1);
+    return [variant, taken.get(key)];
+  }));
+  const rounds = [...best].sort((a, b) => rank.get(a) - rank.get(b));
+  const count = Math.min(kMostPanes, Math.max(kFewPanes, taken.size), variants.length);
+  return rounds.slice(0, count).sort((a, b) => variants.indexOf(a) - variants.indexOf(b));
 }
 
 class SideBySide {
@@ -31,12 +50,12 @@ class SideBySide {
     this.output = this.outputs.find((name) => values.some((value) => value.isMesh() && `${value.node}.${value.output}` === name)) ?? this.outputs[0];
     this.colouring = "height";
     this.variants = variants;
-    this.panes = variants.slice(0, Math.min(kMostPanes, variants.length)).map((variant) => new Pane(this, variant));
+    this.panes = firstOf(variants, study).map((variant) => new Pane(this, variant));
     this.colours = h("span", {});
     this.legend = h("div", { class: "shared-legend" });
     this.element = h("div", {}, this.#tools(), h("div", { class: "panes" }, this.panes.map((pane) => pane.element)), this.legend, h("p", { class: "hint keys" }, keyHelp));
     this.refresh();
-    this.panes[0]?.view.fit(directions.oblique);
+    this.panes[0]?.view.fit(broadside(this.panes.map((pane) => pane.layer?.value).filter(Boolean)));
   }
 
   #tools() {

@@ -23,20 +23,27 @@ export class Dome {
   }
 
   resize(width, height) {
-    this.target?.dispose();
-    const depthTexture = new THREE.DepthTexture(width, height, THREE.UnsignedIntType);
-    this.target = new THREE.WebGLRenderTarget(width, height, { samples: 4, depthTexture });
+    for (const target of Object.values(this.targets ?? {})) target.dispose();
+    this.targets = {};
     this.size = [width, height];
   }
 
-  render(scene, camera, ratio) {
+  /** The picture to draw into, with smoothed edges or without. */
+  #target(smooth) {
+    const [width, height] = this.size;
+    this.targets[smooth] ??= new THREE.WebGLRenderTarget(width, height, { samples: smooth ? 4 : 0, depthTexture: new THREE.DepthTexture(width, height, THREE.UnsignedIntType) });
+    return this.targets[smooth];
+  }
+
+  render(scene, camera, ratio, smooth) {
     const { renderer, uniforms } = this;
-    renderer.setRenderTarget(this.target);
+    const target = this.#target(smooth);
+    renderer.setRenderTarget(target);
     renderer.clear();
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
-    uniforms.image.value = this.target.texture;
-    uniforms.depth.value = this.target.depthTexture;
+    uniforms.image.value = target.texture;
+    uniforms.depth.value = target.depthTexture;
     uniforms.pixel.value.set((1.3 * ratio) / this.size[0], (1.3 * ratio) / this.size[1]);
     uniforms.nearFar.value.set(camera.near, camera.far);
     uniforms.strength.value = this.strength;

@@ -3,9 +3,10 @@
 // A view with its list of values, legends, tools and picks.
 import { button, download, h, tick } from "../dom.js";
 import { quantity } from "../format.js";
+import { broadside } from "./broadside.js";
 import { directions, keyHelp } from "./keys.js";
 import { Layer } from "./layer.js";
-import { legendOf } from "./legend.js";
+import { legendsOf } from "./legend.js";
 import { panelRow } from "./panel.js";
 import { Picks } from "./picks.js";
 import { Scanners, pathLine } from "./scanners.js";
@@ -26,6 +27,14 @@ export function middleOf(values) {
   return lo.map((x, axis) => (Number.isFinite(x) ? (x + hi[axis]) / 2 : 0));
 }
 
+/** The same colour is the same height in all values, unless a person wants another range. */
+function shareHeights(layers) {
+  const free = layers.filter((layer) => layer.key === "height" && !layer.chosen);
+  const lo = Math.min(...free.map((layer) => layer.fullRange()[0]));
+  const hi = Math.max(...free.map((layer) => layer.fullRange()[1]));
+  for (const layer of free) layer.setRange(lo, hi);
+}
+
 export class Explorer {
   /**
    * `first`: ids of the values that are shown at the start, with the key of their colouring; `paths`:
@@ -44,7 +53,7 @@ export class Explorer {
     this.paths = paths.map((points) => pathLine(this.view, points, 0xd55e00));
     this.element = this.#build();
     this.refresh();
-    this.view.fit(directions.oblique);
+    this.view.fit(broadside(this.entries.filter((entry) => entry.layer?.visible).map(({ value }) => value)));
   }
 
   #entry(value, index) {
@@ -65,7 +74,8 @@ export class Explorer {
   /** Legends, scanners and the picture after a change. */
   refresh() {
     const visible = this.entries.filter((entry) => entry.layer?.visible);
-    this.legends.replaceChildren(...visible.map(({ layer }) => legendOf(layer, () => this.view.draw())).filter(Boolean));
+    shareHeights(visible.map(({ layer }) => layer));
+    this.legends.replaceChildren(...legendsOf(visible.map(({ layer }) => layer), () => this.view.draw()));
     this.scanners.refresh(visible.map(({ value }) => value));
     this.view.draw();
   }

@@ -6,6 +6,7 @@ import { category, kNone, mapped, table } from "../colour.js";
 import { kHeight, kLabel, kNumber, kPlain, meshShader, pointShader } from "./shaders.js";
 
 const kNumberSteps = 65534;
+const kMany = 40000;
 const kTail = 0.01;
 const kWorth = 1.6;  // the full range is shown unless it is so many times that of 98 % of the points
 
@@ -47,10 +48,18 @@ export class Layer {
     };
     const shader = value.isMesh() ? meshShader : pointShader;
     this.material = new THREE.ShaderMaterial({ ...shader, uniforms: this.uniforms, side: THREE.DoubleSide });
-    if (!value.isMesh()) return new THREE.Points(this.geometry, this.material);
+    if (!value.isMesh()) {
+      if (value.shown > kMany) this.geometry.setIndex(new THREE.BufferAttribute(shuffled(value.shown), 1));
+      return new THREE.Points(this.geometry, this.material);
+    }
     this.geometry.setIndex(new THREE.BufferAttribute(value.indices(), 1));
     this.geometry.computeVertexNormals();
     return new THREE.Mesh(this.geometry, this.material);
+  }
+
+  /** Draws only this share of a large cloud, evenly taken. */
+  setShare(share) {
+    if (!this.value.isMesh() && this.value.shown > kMany) this.geometry.setDrawRange(0, Math.max(kMany, Math.round(share * this.value.shown)));
   }
 
   /** Colours to choose from: [key, text]. */
@@ -74,6 +83,13 @@ export class Layer {
     this.map = this.#isSigned() ? "blue to red" : this.map === "blue to red" ? "viridis" : this.map;
     this.setTable(table(this.map), 256, THREE.LinearFilter);
     this.setRange(...this.goodRange());
+    this.chosen = false;
+  }
+
+  /** A range that a person wants. */
+  choose(lo, hi) {
+    this.setRange(lo, hi);
+    this.chosen = true;
   }
 
   /** Columns that are off to either side of zero. */
@@ -204,6 +220,18 @@ export class Layer {
 
 /** The colour of the i-th of these labels: "none" is grey. */
 export const labelColour = (labels, i) => (labels[i].label === null ? kNone : category(i));
+
+/** 0 to count - 1 in an order of which each beginning is spread evenly, the same every time. */
+function shuffled(count) {
+  const order = Uint32Array.from({ length: count }, (_, i) => i);
+  let state = 1;
+  for (let i = count - 1; i > 0; --i) {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    const j = Math.floor((state / 4294967296) * (i + 1));
+    [order[i], order[j]] = [order[j], order[i]];
+  }
+  return order;
+}
 
 function textureOf(bytes, width, filter) {
   const texture = new THREE.DataTexture(bytes, width, 1, THREE.RGBAFormat, THREE.UnsignedByteType);

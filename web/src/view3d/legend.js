@@ -8,6 +8,16 @@ import { labelColour } from "./layer.js";
 
 const kMostLabels = 14;
 
+/** The legends of some layers; those that are coloured alike share one. */
+export function legendsOf(layers, changed) {
+  const groups = new Map();
+  for (const layer of layers) {
+    const key = layer.isNumeric() ? `${layer.key} ${layer.column?.unit} ${layer.range} ${layer.map}` : layer;
+    groups.set(key, [...(groups.get(key) ?? []), layer]);
+  }
+  return [...groups.values()].map((group) => legendOf(group[0], changed, group.map((layer) => layer.value.id).join(", "))).filter(Boolean);
+}
+
 /** What the colours of a layer mean; null where there is only one. `changed()` after a label is hidden. */
 export function legendOf(layer, changed, title = layer.value.id) {
   if (layer.key === "plain") return null;
@@ -20,7 +30,7 @@ function numberLegend(layer, title) {
   const [lo, hi] = layer.range;
   const scale = scaleFor(unit, Math.max(Math.abs(lo), Math.abs(hi)));
   const name = layer.column ? layer.column.name : "height";
-  const full = layer.fullRange();
+  const full = layer.column ? layer.fullRange() : layer.range;
   const beyond = { 0: full[0] < lo ? "\u2264\u2009" : "", 1: full[1] > hi ? "\u2265\u2009" : "" };
   const ticks = [0, 0.25, 0.5, 0.75, 1].map((t) => h("span", {}, (beyond[t] ?? "") + number((lo + t * (hi - lo)) * scale.factor, 3)));
   return h("figure", { class: "legend" },

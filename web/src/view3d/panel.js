@@ -28,10 +28,13 @@ export function panelRow(entry) {
   refresh();
   return h("li", { class: "layer" },
     h("div", { class: "head" }, box, swatch,
-      h("label", { for: box.id }, h("b", {}, value.node), h("span", {}, `.${value.output}`)),
+      h("label", { for: box.id }, h("b", {}, breakable(value.node)), h("span", {}, `.${value.output}`)),
       h("small", {}, sizeOf(value))),
     details);
 }
+
+/** Long names break after an underscore. */
+const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, h("wbr")]);
 
 function sizeOf(value) {
   const points = value.shown < value.count ? `${integer(value.shown)} of ${integer(value.count)}` : integer(value.count);
@@ -96,9 +99,9 @@ function rangeFields(entry, refill) {
     return h("label", { class: "field" }, h("span", {}, label), input, scale.unit && h("small", {}, scale.unit));
   };
   return [
-    field("from", lo, (x) => layer.setRange(x, layer.range[1])),
-    field("to", hi, (x) => layer.setRange(layer.range[0], x)),
-    button("all", () => { layer.setRange(...layer.fullRange()); refill(); entry.changed(); }, { class: "small", title: "from the least to the greatest value" }),
+    field("from", lo, (x) => layer.choose(x, layer.range[1])),
+    field("to", hi, (x) => layer.choose(layer.range[0], x)),
+    button("all", () => { layer.choose(...layer.fullRange()); refill(); entry.changed(); }, { class: "small", title: "from the least to the greatest value" }),
     choice("map", mapNames.map((name) => [name, name]), layer.map, (map) => { layer.setMap(map); refill(); entry.changed(); }),
   ];
 }

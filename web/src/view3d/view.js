@@ -4,6 +4,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { h } from "../dom.js";
+import { Detail } from "./detail.js";
 import { Dome } from "./dome.js";
 import { Grid } from "./grid.js";
 import { bindKeys } from "./keys.js";
@@ -36,6 +37,7 @@ export class View {
     bindKeys(this);
     new ResizeObserver(() => this.draw()).observe(this.element);
     this.radius = 1;
+    this.detail = new Detail(() => this.draw());
   }
 
   on(event, listener) {
@@ -95,8 +97,10 @@ export class View {
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(towards, distance);
     this.grid.place(box, this.base);
+    this.placing = true;
     this.controls.update();
     this.#moved();
+    this.placing = false;
   }
 
   /** The ground follows what is visible. */
@@ -122,6 +126,7 @@ export class View {
   }
 
   #moved() {
+    if (!this.placing && this.detail) this.detail.moved();
     this.draw();
     if (!this.following) for (const listener of this.listeners.camera) listener(this.pose());
   }
@@ -130,13 +135,13 @@ export class View {
   draw() {
     if (this.asked) return;
     this.asked = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.asked = false;
-      this.drawNow();
+      this.drawNow(this.detail.frame(now));
     });
   }
 
-  drawNow() {
+  drawNow({ smooth, share } = { smooth: true, share: 1 }) {
     const width = this.element.clientWidth;
     const height = this.element.clientHeight;
     if (width === 0 || height === 0) return;
@@ -153,8 +158,11 @@ export class View {
     this.camera.far = away + this.radius * 40;
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
-    for (const layer of this.layers) layer.uniforms.size.value = layer.size * ratio;
-    this.dome.render(this.scene, this.camera, ratio);
+    for (const layer of this.layers) {
+      layer.uniforms.size.value = layer.size * ratio;
+      layer.setShare(share);
+    }
+    this.dome.render(this.scene, this.camera, ratio, smooth);
     this.marks.place(this.camera, width, height);
   }
 
