@@ -95,6 +95,35 @@ TEST_CASE("a finer beam step gives proportionally more points") {
   CHECK(static_cast<double>(fine) / static_cast<double>(coarse) == Approx(4.0).epsilon(0.02));
 }
 
+TEST_CASE("effects are chosen in the graph, and their names are checked before anything runs") {
+  const auto range = [](const char* errors) {
+    const Cloud cloud =
+        simulator(kTunnel, "gennaker").set("noise", "0 mm").set("errors", errors).run().cloud();
+    return static_cast<double>(cloud.positions().col(0).norm());
+  };
+  const double plain = range("none");
+  CHECK(range("distance") - plain == Approx(0.0034 + 0.001 * plain).margin(1e-5));
+  CHECK_THROWS_AS(simulator(kTunnel, "gennaker").set("errors", "rain").run(), velum::Error);
+}
+
+TEST_CASE("repeated lines have numbers and times of their own") {
+  const Cloud cloud = simulator(kTunnel, "gennaker")
+                          .set("repeats", "3")
+                          .set("period", "20 ms")
+                          .set("tilt_step", "25 deg")
+                          .run()
+                          .cloud();
+  CHECK(cloud.size() == 3 * 3 * 191);
+  const auto lines = cloud.column("line").vector<std::int32_t>();
+  const auto times = cloud.column("time").vector<double>();
+  const auto tilts = cloud.column("tilt").vector<float>();
+  CHECK(lines[cloud.size() - 1] == 8);
+  CHECK(tilts[0] == tilts[3 * 191 - 1]);
+  CHECK(tilts[0] < tilts[3 * 191]);
+  CHECK(times[191] == Approx(0.02));
+  CHECK(times[190] == Approx(0.02 * 190.0 / 360.0));  // a beam a degree, 360 a revolution
+}
+
 TEST_CASE("a scanner that the scene does not have is a mistake in the graph") {
   try {
     static_cast<void>(simulator(kTunnel, "bow").run());

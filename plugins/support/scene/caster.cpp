@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/caster.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace velum::scene {
@@ -36,17 +38,26 @@ Caster::Caster(const Scene& scene) {
 std::optional<Caster::Hit> Caster::cast(const Ray& ray, const Reach& reach) const {
   std::optional<Hit> best;
   Reach left = reach;
-  for (const Solid& solid : solids_)
+  for (std::size_t i = 0; i < solids_.size(); ++i)
     std::visit(
         [&](const auto& placed) {
           if (const auto range = meet(placed.shape, ray, left)) {
-            best = {*range, placed.object};
+            best = {*range, placed.object, static_cast<std::int32_t>(i)};
             left.far = *range;
           }
         },
-        solid);
-  if (const auto hit = tree_.meet(ray, left)) best = {hit->range, hit->owner};
+        solids_[i]);
+  if (const auto hit = tree_.meet(ray, left)) best = {hit->range, hit->owner, ~hit->triangle};
   return best;
+}
+
+double Caster::incidence(const Ray& ray, const Hit& hit) const {
+  const Eigen::Vector3d at = ray.from + hit.range * ray.along;
+  const Eigen::Vector3d facing =
+      hit.part < 0 ? tree_.normal(~hit.part)
+                   : std::visit([&](const auto& placed) { return normal(placed.shape, at); },
+                                solids_[static_cast<std::size_t>(hit.part)]);
+  return std::acos(std::min(1.0, std::abs(facing.dot(ray.along))));
 }
 
 }  // namespace velum::scene

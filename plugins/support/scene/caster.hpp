@@ -29,17 +29,27 @@ struct Reach {
                                          const Reach& reach);
 [[nodiscard]] std::optional<double> meet(const Cone& cone, const Ray& ray, const Reach& reach);
 
+/// Unit normal of a closed-form shape at a point on it; its sign means nothing.
+[[nodiscard]] Eigen::Vector3d normal(const Plane& plane, const Eigen::Vector3d& at);
+[[nodiscard]] Eigen::Vector3d normal(const Box& box, const Eigen::Vector3d& at);
+[[nodiscard]] Eigen::Vector3d normal(const Ellipsoid& shape, const Eigen::Vector3d& at);
+[[nodiscard]] Eigen::Vector3d normal(const Cylinder& cylinder, const Eigen::Vector3d& at);
+[[nodiscard]] Eigen::Vector3d normal(const Cone& cone, const Eigen::Vector3d& at);
+
 /// Bounding volume hierarchy over triangles: nearest hit of a ray in logarithmic time.
 class TriangleTree {
  public:
   struct Hit {
     double range;
     std::int32_t owner;
+    std::int32_t triangle;
   };
   /// Takes the triangles of one owner; call build() when all are in.
   void add(const TriangleSet& set, std::int32_t owner);
   void build();
   [[nodiscard]] std::optional<Hit> meet(const Ray& ray, const Reach& reach) const;
+  /// Unit normal of a triangle that was hit.
+  [[nodiscard]] Eigen::Vector3d normal(std::int32_t triangle) const;
 
  private:
   struct Triangle {
@@ -68,10 +78,13 @@ class Caster {
   struct Hit {
     double range;
     std::int32_t object;  ///< index into the scene's objects
+    std::int32_t part;    ///< what of it: a number that incidence() understands
   };
   /// Sails are cut into triangles nowhere farther than 0.04 mm from them.
   explicit Caster(const Scene& scene);
   [[nodiscard]] std::optional<Hit> cast(const Ray& ray, const Reach& reach) const;
+  /// Angle between a ray and the normal of what it hit [rad], 0 to π/2.
+  [[nodiscard]] double incidence(const Ray& ray, const Hit& hit) const;
 
  private:
   template <class S>

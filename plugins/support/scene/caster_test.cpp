@@ -166,3 +166,29 @@ TEST_CASE("of several objects the nearest is seen") {
   CHECK(hit->object == 1);
   CHECK(hit->range == Approx(1.0));
 }
+
+TEST_CASE("the incidence of a ray is that of the surface that it hits") {
+  const double slope = 0.3;
+  const Vector3d along = Vector3d(std::sin(slope), 0, -std::cos(slope));
+  const auto incidence = [](const Caster& caster, const Ray& ray) {
+    const auto hit = caster.cast(ray, kAnywhere);
+    return hit ? caster.incidence(ray, *hit) : -1.0;
+  };
+  TriangleSet sheet;
+  sheet.vertices.resize(3, 3);
+  sheet.vertices << -9, 9, 0, -9, -9, 9, 0, 0, 0;
+  sheet.triangles.resize(3, 1);
+  sheet.triangles << 0, 1, 2;
+  Box box;
+  for (const Shape& shape :
+       {Shape(Plane{}), Shape(box), Shape(sheet), Shape(Cylinder{{0, 0, -1}, {0, 0, 0}, 5.0}),
+        Shape(Cone{{0, 0, -1}, {0, 0, 0}, 5.0})})
+    CHECK(incidence(Caster(with(shape)), {{0, 0, 3}, along}) == Approx(slope));
+  // On curved sides: a ball met half its radius off the axis, a cylinder likewise, a cone's side.
+  const double half = std::asin(0.5);
+  const Ray off{{0.5, 0, 3}, {0, 0, -1}};
+  CHECK(incidence(Caster(with(Ellipsoid{Pose::Identity(), {1, 1, 1}})), off) == Approx(half));
+  CHECK(incidence(Caster(with(Cylinder{{0, -1, 0}, {0, 1, 0}, 1.0})), off) == Approx(half));
+  CHECK(incidence(Caster(with(Cone{{0, 0, 1}, {0, 0, 0}, 1.0})), off) ==
+        Approx(std::numbers::pi / 4.0));
+}

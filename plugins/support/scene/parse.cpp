@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 
 #include "graph/diagnostic.hpp"
-#include "scene/keys.hpp"
+#include "scene/parts.hpp"
 #include "scene/scene.hpp"
 #include "velum/files.hpp"
 #include "velum/parameter.hpp"
@@ -15,24 +13,6 @@ namespace velum::scene {
 namespace {
 
 using Eigen::Vector3d;
-using Frames = std::map<std::string, Pose, std::less<>>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-std::vector<std::string> names_of(const Frames& frames) {
-  std::vector<std::string> names;
-  for (const auto& [name, pose] : frames) names.push_back(name);
-  return names;
-}
-
-Pose frame_of(Keys& keys, const Frames& frames) {
-  if (!keys.has("frame")) return Pose::Identity();
-  const std::string name = keys.text("frame");
-  const auto found = frames.find(name);
-  if (found != frames.end()) return found->second;
-  keys.fail("frame", "is \"" + name + "\", which the file does not define",
-            graph::known_list(names_of(frames)));
-}
 
 // A pose whose z is `normal` and whose x is as near to `along` as that allows.
 Pose facing(const Vector3d& position, const Vector3d& normal, const Vector3d& along) {
@@ -155,11 +135,13 @@ Sail sail_of(Keys& keys, const Pose& frame, const SceneFile& file) {
   return Sail(std::move(design));
 }
 
-Object object_of(const SceneFile& file, const Entry& entry, const Frames& frames) {
+Object object_of(const SceneFile& file, const Entry& entry, const Frames& frames,
+                 const Materials& materials) {
   Keys keys(file, entry.value, "object '" + entry.key + "'");
   Object object;
   object.name = entry.key;
   object.label = keys.integer("label");
+  if (keys.has("material")) object.material = material_of(keys, materials);
   const Pose frame = frame_of(keys, frames);
   const std::string shape = keys.text("shape");
   if (shape == "plane")
@@ -181,36 +163,6 @@ Object object_of(const SceneFile& file, const Entry& entry, const Frames& frames
               graph::known_list({"plane", "box", "ellipsoid", "cylinder", "cone", "mesh", "sail"}));
   keys.finish();
   return object;
-}
-
-Scanner scanner_of(const SceneFile& file, const Entry& entry, const Frames& frames) {
-  Keys keys(file, entry.value, "scanner '" + entry.key + "'");
-  Scanner scanner;
-  scanner.name = entry.key;
-  const Pose frame = frame_of(keys, frames);
-  scanner.pose = frame * keys.pose();
-  scanner.beam_from = keys.angle("beam_from", scanner.beam_from);
-  scanner.beam_to = keys.angle("beam_to", scanner.beam_to);
-  scanner.beam_step = keys.angle("beam_step", scanner.beam_step);
-  scanner.tilt_from = keys.angle("tilt_from", scanner.tilt_from);
-  scanner.tilt_to = keys.angle("tilt_to", scanner.tilt_to);
-  scanner.tilt_step = keys.angle("tilt_step", scanner.tilt_step);
-  scanner.noise = keys.length("noise", scanner.noise);
-  scanner.range_min = keys.length("range_min", scanner.range_min);
-  scanner.range_max = keys.length("range_max", scanner.range_max);
-  for (const char* key : {"beam_step", "tilt_step"})
-    if (keys.angle(key, 1.0) < 0.01 * kDegree) keys.fail(key, "must be at least 0.01 degrees");
-  if (scanner.beam_to < scanner.beam_from) keys.fail("beam_to", "must not lie before beam_from");
-  if (scanner.tilt_to < scanner.tilt_from) keys.fail("tilt_to", "must not lie before tilt_from");
-  if (scanner.beam_to - scanner.beam_from > 360.5 * kDegree)
-    keys.fail("beam_to", "must lie within a full turn of beam_from");
-  if (scanner.tilt_to - scanner.tilt_from > 360.5 * kDegree)
-    keys.fail("tilt_to", "must lie within a full turn of tilt_from");
-  if (scanner.noise < 0.0) keys.fail("noise", "must not be negative");
-  if (scanner.range_min < 0.0 || scanner.range_max <= scanner.range_min)
-    keys.fail("range_max", "must lie above range_min, which must not be negative");
-  keys.finish();
-  return scanner;
 }
 
 Node parse_document(std::string_view text, const SceneFile& file) {
@@ -253,10 +205,15 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& path) {
     frames[entry.key] = parent * keys.pose();
     keys.finish();
   });
-  each(top, "object", file,
-       [&](const Entry& entry) { scene.objects.push_back(object_of(file, entry, frames)); });
+  Materials materials;
+  each(top, "material", file,
+       [&](const Entry& entry) { materials[entry.key] = read_material(file, entry, materials); });
+  if (top.has("sun")) scene.sun = read_sun(file, top.node("sun"));
+  each(top, "object", file, [&](const Entry& entry) {
+    scene.objects.push_back(object_of(file, entry, frames, materials));
+  });
   each(top, "scanner", file,
-       [&](const Entry& entry) { scene.scanners.push_back(scanner_of(file, entry, frames)); });
+       [&](const Entry& entry) { scene.scanners.push_back(read_scanner(file, entry, frames)); });
   top.finish();
   return scene;
 }

@@ -18,7 +18,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 Cloud scan_of(const Scene& scene, bool mixed = false, std::uint64_t seed = 1, int threads = 2) {
   run::LocalContext context(threads, seed);
-  return scan(scene, scene.scanners.front(), mixed, context.random(), context);
+  Scanner scanner = scene.scanners.front();
+  if (mixed) scanner.effects.with(Effect::mixed_pixels);
+  return scan(scene, scanner, context.random(), context);
 }
 
 Scene scene_of(const std::string& text) {
@@ -141,5 +143,5 @@ TEST_CASE("a scan stops when it is interrupted") {
   const Scene scene = scene_of(kWall + "[scanner.a]\n");
   run::LocalContext context(2, 1);
   context.cancel();
-  CHECK_THROWS_AS(scan(scene, scene.scanners.front(), false, context.random(), context), Cancelled);
+  CHECK_THROWS_AS(scan(scene, scene.scanners.front(), context.random(), context), Cancelled);
 }

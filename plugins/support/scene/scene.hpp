@@ -4,11 +4,14 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "scene/error_model.hpp"
+#include "scene/material.hpp"
 #include "scene/sail.hpp"
 
 namespace velum::scene {
@@ -50,6 +53,7 @@ struct Object {
   std::string name;
   std::int32_t label = 0;
   std::vector<Shape> shapes;
+  std::optional<Material> material = std::nullopt;
   /// The sail when it is one, else null.
   [[nodiscard]] const Sail* sail() const;
 };
@@ -67,8 +71,17 @@ struct Scanner {
   double tilt_to = 45.0 * 0.017453292519943295;
   double tilt_step = 0.25 * 0.017453292519943295;
   double noise = 0.004;     ///< standard deviation of a range [m] (thesis 2.4.3.2)
+  Effects effects;          ///< what else acts on ranges
+  int repeats = 1;          ///< lines at each tilt
+  double period = 0.0;      ///< time from line to line [s]; 0: not known
   double range_min = 0.2;   ///< [m]
   double range_max = 80.0;  ///< [m]
+};
+
+/// Light that disturbs a scanner which looks towards it.
+struct Sun {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< towards it, in the scene's frame
+  double width = 5.0 * 0.017453292519943295;             ///< of its glare, one sigma [rad]
 };
 
 /// What there is to be seen, and from where.
@@ -77,6 +90,7 @@ struct Scene {
   std::string title;
   std::vector<Object> objects;
   std::vector<Scanner> scanners;
+  std::optional<Sun> sun;
 
   /// Throws Error (Fault::graph) naming what the scene has.
   [[nodiscard]] const Object& object(std::string_view name) const;

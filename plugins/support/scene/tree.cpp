@@ -96,7 +96,7 @@ std::optional<TriangleTree::Hit> TriangleTree::meet(const Ray& ray, const Reach&
       const double range = t.second.dot(q) / volume;
       if (range < reach.near || range > far) continue;
       far = range;
-      best = {range, t.owner};
+      best = {range, t.owner, i};
     }
   };
   for (;;) {
@@ -114,6 +114,11 @@ std::optional<TriangleTree::Hit> TriangleTree::meet(const Ray& ray, const Reach&
     if (depth == 0) return best;
     at = stack[--depth];
   }
+}
+
+Vector3d TriangleTree::normal(std::int32_t triangle) const {
+  const Triangle& t = triangles_[static_cast<std::size_t>(triangle)];
+  return t.first.cross(t.second).normalized();
 }
 
 }  // namespace velum::scene
