@@ -5,6 +5,7 @@ import base64
 import json
 import re
 import shutil
+import signal
 import struct
 import unittest
 
@@ -85,6 +86,21 @@ class ReportTest(ReportCase):
         data, _ = self.report()
         self.assertEqual(data["run"]["status"], "failed")
         self.assertIn("moved.cloud", self.values())
+
+    def test_interrupted_run_shows_what_there_is(self):
+        self.write("g.toml", CHAIN + '[node.slow]\nuse = "test.slow"\nin = "moved"\n')
+        for stubborn in ("false", "true"):
+            process = self.start(
+                "run", "g.toml", "--report", "--no-cache",
+                "--set", "slow.time=60 s", "--set", f"slow.stubborn={stubborn}",
+            )
+            self.wait_for((self.folder / "g.out/n.txt").exists)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130)
+            self.assertEqual(self.report()[0]["run"]["status"], "interrupted")
+            self.assertIn("moved.cloud", self.values())
+            (self.folder / "g.out/n.txt").unlink()
 
     def test_json_event(self):
         self.write("g.toml", CHAIN)

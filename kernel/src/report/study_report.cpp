@@ -3,6 +3,7 @@
 #include "report/study_report.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -60,6 +61,37 @@ std::optional<std::vector<View>> views_of(const fs::path& folder, const Json& va
   return std::nullopt;
 }
 
+/// What tells one value from another, by node and output.
+struct Content {
+  Bytes::Key positions;
+  Bytes::Key triangles;
+  std::vector<Bytes::Key> columns;
+  bool operator==(const Content&) const = default;
+};
+Content content_of(const View& view) {
+  Content content{view.positions.key(), view.triangles.key(), {}};
+  for (const ViewColumn& column : view.columns) content.columns.push_back(column.data.key());
+  return content;
+}
+
+/// What does not vary, such as the truth, is told once: the histograms of later variants go.
+void drop_repeated_histograms(std::vector<std::vector<View>>& variants) {
+  std::map<std::string, Content> first;
+  std::set<std::string> varies;
+  for (const auto& views : variants)
+    for (const View& view : views) {
+      const std::string name = view.node + "." + view.output;
+      const auto [known, fresh] = first.emplace(name, content_of(view));
+      if (!fresh && !(known->second == content_of(view))) varies.insert(name);
+    }
+  std::set<std::string> told;
+  for (auto& views : variants)
+    for (View& view : views) {
+      const std::string name = view.node + "." + view.output;
+      if (!told.insert(name).second && !varies.contains(name)) view.histograms.clear();
+    }
+}
+
 struct Shown {
   Views views{kRunLimit};
   std::set<std::string> stages;
@@ -67,20 +99,23 @@ struct Shown {
 };
 
 Shown shown(const fs::path& folder, const Json& study) {
-  Shown found;
   constexpr std::size_t kMostValues = 4096;  // of one variant
-  const Json& variants = study.at("variants");
-  for (std::size_t i = 0; i < std::min(variants.size(), kMostVariants); ++i) {
-    const Json& variant = variants.at(i);
-    auto views = views_of(folder, variant, found.stages);
+  Shown found;
+  std::vector<std::vector<View>> variants;
+  const Json& told = study.at("variants");
+  for (std::size_t i = 0; i < std::min(told.size(), kMostVariants); ++i) {
+    auto views = views_of(folder, told.at(i), found.stages);
     if (!views) continue;
     for (View& view : *views) {
-      view.variant = variant.at("id").get<std::string>();
-      view.order += found.variants * kMostValues;
-      found.views.add(std::move(view));
+      view.variant = told.at(i).at("id").get<std::string>();
+      view.order += i * kMostValues;
     }
-    ++found.variants;
+    variants.push_back(std::move(*views));
   }
+  found.variants = variants.size();
+  drop_repeated_histograms(variants);
+  for (auto& views : variants)
+    for (View& view : views) found.views.add(std::move(view));
   return found;
 }
 

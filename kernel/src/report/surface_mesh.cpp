@@ -128,8 +128,8 @@ class Sampler {
     }
     // The corner that is not like the others first.
     while (in[0] != (count == 1)) {
-      std::ranges::rotate(in, in.begin() + 1);
-      std::ranges::rotate(corner, corner.begin() + 1);
+      std::rotate(in.begin(), in.begin() + 1, in.end());
+      std::rotate(corner.begin(), corner.begin() + 1, corner.end());
     }
     const auto [a, b, c] = corner;
     if (count == 1) {

@@ -73,7 +73,7 @@ std::vector<std::uint32_t> triangles_of(const View& view, const std::vector<std:
     std::array<std::uint32_t, 3> corner = {place[old[t]], place[old[t + 1]], place[old[t + 2]]};
     if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
     // From its lowest corner on, which keeps its orientation.
-    std::ranges::rotate(corner, std::ranges::min_element(corner));
+    std::rotate(corner.begin(), std::ranges::min_element(corner), corner.end());
     if (known.insert(corner).second) made.insert(made.end(), corner.begin(), corner.end());
   }
   return made;

@@ -21,12 +21,17 @@ Json cell_json(const Cell& cell) {
   return std::get<std::string>(cell);
 }
 
+std::size_t rows_shown(const Table& table) {
+  const std::size_t columns = std::max<std::size_t>(table.headings().size(), 1);
+  return std::min({table.size(), kMostRows, std::max<std::size_t>(kMostTableCells / columns, 1)});
+}
+
 void add_rows(const Table& table, View& view) {
   Json headings = Json::array();
   for (const auto& heading : table.headings())
     headings.push_back({{"name", heading.name}, {"unit", heading.unit}});
   Json rows = Json::array();
-  const std::size_t shown = std::min(table.size(), kMostRows);
+  const std::size_t shown = rows_shown(table);
   for (std::size_t i = 0; i < shown; ++i) {
     Json row = Json::array();
     for (const Cell& cell : table.rows()[i * table.size() / shown]) row.push_back(cell_json(cell));
@@ -96,7 +101,7 @@ struct Maker {
   }
   void operator()(const Table& table) const {
     view.count = table.size();
-    view.shown = std::min(table.size(), kMostRows);
+    view.shown = rows_shown(table);
     add_rows(table, view);
   }
 };

@@ -70,8 +70,9 @@ struct View {
 inline constexpr std::uint16_t kNoNumber = 65535;
 inline constexpr double kPositionSteps = 65535.0;
 inline constexpr double kNumberSteps = 65534.0;
-/// Rows of a table that are shown; longer ones are thinned.
-inline constexpr std::size_t kMostRows = 5000;
+/// Rows and cells of a table that are shown; larger ones are thinned.
+inline constexpr std::size_t kMostRows = 5'000;
+inline constexpr std::size_t kMostTableCells = 50'000;
 
 /// Throws what a stage may throw of a value that is not sound.
 [[nodiscard]] View make_view(const Value& value);
