@@ -25,8 +25,8 @@ constexpr const char* kExamples = R"(Examples:
   velum convert scan.pcd scan.ply --units mm
 
 Exit status: 0 done; 1 a stage failed or a result is empty; 2 the command line or the graph is
-wrong; 4 a plugin cannot be loaded; 5 an input file is bad; 6 output or disk; 7 device;
-130 interrupted.)";
+wrong; 3 a study is complete but some variants failed; 4 a plugin cannot be loaded; 5 an input file
+is bad; 6 output or disk; 7 device; 130 interrupted.)";
 
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;

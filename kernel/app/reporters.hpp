@@ -22,8 +22,9 @@ class Reporter : public run::Observer {
   virtual void run_ended(const run::RunResult& result) = 0;
 };
 
-/// Lines for people; on a terminal also a bar for each running node.
-std::unique_ptr<Reporter> make_text_reporter(bool on_terminal);
+/// Lines for people; on a terminal also a bar for each running node. `cached`: the run keeps the
+/// results of finished nodes.
+std::unique_ptr<Reporter> make_text_reporter(bool on_terminal, bool cached);
 /// One JSON object a line (docs/command.md).
 std::unique_ptr<Reporter> make_json_reporter();
 

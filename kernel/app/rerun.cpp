@@ -34,7 +34,7 @@ int rerun(const run::Json& record, const Options& options, const fs::path& out) 
   }
   const run::RunOptions asked = options_of(record, options.threads, out, options.record.string());
   run::catch_signals();
-  const auto reporter = make_text_reporter(on_terminal());
+  const auto reporter = make_text_reporter(on_terminal(), false);
   const run::RunResult result =
       run::run_graph(*loaded.graph, registry, asked, *reporter,
                      [&](const run::RunRecord& begun) { reporter->run_started(begun, out); });

@@ -3,6 +3,7 @@
 #include "run/run.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -147,7 +148,8 @@ int run_checked(const graph::Graph& graph, plugins::Registry& registry, const Op
 
 void run_command(Options options) {
   if (options.out.empty()) options.out = options.graph.stem().string() + ".out";
-  const auto reporter = options.json ? make_json_reporter() : make_text_reporter(on_terminal());
+  const auto reporter =
+      options.json ? make_json_reporter() : make_text_reporter(on_terminal(), !options.no_cache);
   plugins::Registry registry;
   const graph::Loaded loaded = graph::load(options.graph, options.overrides, registry,
                                            graph::LoadOptions{.out = options.out});
@@ -186,9 +188,15 @@ void add_run(CLI::App& app) {
   const auto no_sign = [](const std::string& text) {
     return text.starts_with("-") ? "it cannot be negative" : "";
   };
+  const auto is_seed = [](const std::string& text) -> std::string {
+    std::int64_t seed = 0;  // as in a graph
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    const bool whole = failed == std::errc() && end == text.data() + text.size() && seed >= 0;
+    return whole ? "" : "'" + text + "' is no whole number from 0 to 9223372036854775807";
+  };
   command->add_option("--seed", options->seed, "seed of all random numbers; default: 1")
       ->type_name("N")
-      ->check(CLI::Validator(no_sign, ""));
+      ->check(CLI::Validator(is_seed, ""));
   auto* cache =
       command->add_option("--cache", options->cache, "where results are kept")->type_name("DIR");
   command->add_option("--cache-size", options->cache_size, "its largest size, as 500MB or 4GB")

@@ -50,7 +50,7 @@ std::vector<std::string> in_words(const run::Measures& measures) {
 
 class TextReporter final : public Reporter {
  public:
-  explicit TextReporter(bool on_terminal) : on_terminal_(on_terminal) {}
+  TextReporter(bool on_terminal, bool cached) : on_terminal_(on_terminal), cached_(cached) {}
 
   void refused(const graph::Diagnostics& diagnostics) override {
     complain(graph::format(diagnostics));
@@ -94,10 +94,11 @@ class TextReporter final : public Reporter {
     const run::RunRecord& record = result.record;
     const std::string kept = plural(record.files.size(), "file");
     if (record.status == run::Status::interrupted) {
-      line(
-          fmt::format("interrupted after {:.2f} s; kept: {} and the record in {}; results of "
-                      "finished nodes are in the cache, a new run goes on from them",
-                      record.seconds, kept, out_));
+      line(fmt::format("interrupted after {:.2f} s; kept: {} and the record in {}{}",
+                       record.seconds, kept, out_,
+                       cached_ ? "; results of finished nodes are in the cache, a new run goes on "
+                                 "from them"
+                               : ""));
     } else if (record.status == run::Status::failed) {
       line(fmt::format("failed after {:.2f} s; kept: {} and the record in {}", record.seconds, kept,
                        out_));
@@ -125,6 +126,7 @@ class TextReporter final : public Reporter {
   }
 
   bool on_terminal_;
+  bool cached_;
   std::string out_;
   std::size_t width_ = 0;
   std::size_t bars_ = 0;
@@ -132,8 +134,8 @@ class TextReporter final : public Reporter {
 
 }  // namespace
 
-std::unique_ptr<Reporter> make_text_reporter(bool on_terminal) {
-  return std::make_unique<TextReporter>(on_terminal);
+std::unique_ptr<Reporter> make_text_reporter(bool on_terminal, bool cached) {
+  return std::make_unique<TextReporter>(on_terminal, cached);
 }
 
 }  // namespace velum::app

@@ -199,6 +199,11 @@ TEST_CASE("E0211: settings that do not fit together, as the stage itself says") 
   CHECK(mistakes(normals + "neighbours = 9\nradius = \"5 mm\"\n") ==
         Lines{"E0211 7:1 node 'n' (features.normals): 'neighbours' and 'radius' are both given | "
               "keep one of them"});
+  // A slip in a name hides nothing.
+  const Lines both = mistakes(normals + "neighbours = 9\nradius = \"5 mm\"\nradiuss = 1\n");
+  REQUIRE(both.size() == 2);
+  CHECK(both[0].starts_with("E0211"));
+  CHECK(both[1].starts_with("E0203"));
   // One mistake is enough: what is wrong alone is not tried with the others.
   CHECK(mistakes(normals + "neighbours = 9\nradius = \"-5 mm\"\n").front().starts_with("E0206"));
 }

@@ -94,6 +94,50 @@ in = "low"
   CHECK(later.failure->message.find("'low' (test.drop) was given 100 points") != std::string::npos);
 }
 
+TEST_CASE("what a stage gives beside its first output may be empty", "[failures]") {
+  const Folder folder;
+  const auto record = run_text(folder, kStart + R"(
+[node.high]
+use = "test.drop"
+in = "start"
+above = "1 km"
+[node.none]
+use = "test.move"
+in = "high.dropped"
+allow_empty = true
+)");
+  CHECK_FALSE(record.failure);
+  CHECK(test::statuses(record).find("none=ok") != std::string::npos);
+}
+
+TEST_CASE("lengths relative to an input of no extent", "[failures]") {
+  const Folder folder;
+  const auto record = run_text(folder, kStart + R"(
+[node.low]
+use = "test.drop"
+in = "start"
+above = "-1 m"
+allow_empty = true
+[node.again]
+use = "test.drop"
+in = "low"
+above = "2 spacing"
+allow_empty = true
+)");
+  CHECK_FALSE(record.failure);  // of nothing any length will do
+
+  const auto alone = run_text(folder, kStart + R"(count = 1
+[node.low]
+use = "test.drop"
+in = "start"
+above = "2 spacing"
+)");
+  REQUIRE(alone.failure);
+  CHECK(alone.failure->code == "E1001");
+  CHECK(run::exit_status(alone) == 1);
+  CHECK(alone.failure->message.find("of 'cloud', which has one point") != std::string::npos);
+}
+
 TEST_CASE("an output that was not made fails the node that needs it", "[failures]") {
   const Folder folder;
   const std::string text = kStart + R"(

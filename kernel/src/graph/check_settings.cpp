@@ -10,6 +10,8 @@
 namespace velum::graph {
 namespace {
 
+constexpr const char* kUnknownParameter = "E0203";
+
 /// Index of the parameter called `name`, now or formerly; that of the end when there is none.
 std::size_t find_parameter(const StageInfo& info, std::string_view name) {
   const auto now = std::ranges::find(info.parameters, name, &Parameter::name);
@@ -29,7 +31,7 @@ void unknown_parameter(const Check& check, const Checked& checked, const Key& ke
   std::string hint = did_you_mean(key.name, words);
   for (const Port& port : checked.node.info->inputs)
     if (port.name == key.name) hint = fmt::format("write in = {{ {} = ... }}", key.name);
-  check.report(key).error("E0203", key.where,
+  check.report(key).error(kUnknownParameter, key.where,
                           fmt::format("unknown parameter '{}' in {}", key.name, call(checked.node)),
                           hint, known.empty() ? "the stage has no parameters" : known_list(known));
 }
@@ -112,7 +114,10 @@ void check_settings(Check& check) {
     const std::size_t mistakes = check.diagnostics.size();
     read_settings(check, checked, draft);
     complete(check, checked, draft);
-    if (check.diagnostics.size() == mistakes) check_together(check, checked, draft);
+    const bool all_read = std::all_of(
+        check.diagnostics.begin() + static_cast<std::ptrdiff_t>(mistakes), check.diagnostics.end(),
+        [](const Diagnostic& one) { return one.code == kUnknownParameter; });
+    if (all_read) check_together(check, checked, draft);
   }
 }
 

@@ -110,7 +110,20 @@ Setting in_metres(const StageInfo& info, const Parameter& parameter, const Setti
                                           parameter.name))
         .hint("give it in metres or another unit of length");
   }
-  return graph::resolve(parameter, setting, points->spacing(), points->diagonal());
+  // Of nothing any length will do: no point is measured with it.
+  if (points->empty()) return graph::resolve(parameter, setting, 1.0, 1.0);
+  const double spacing = points->spacing();
+  const double diagonal = points->diagonal();
+  if (!(diagonal > 0.0) || !(spacing > 0.0))
+    throw Error(
+        Fault::stage,
+        fmt::format(
+            "'{}' is relative to the spacing or diagonal of '{}', which has {}", parameter.name,
+            parameter.relative_to.empty() ? info.inputs.front().name : parameter.relative_to,
+            points->size() == 1 ? "one point"
+                                : fmt::format("{} points in one place", points->size())))
+        .hint(fmt::format("give {} in metres or another unit of length", parameter.name));
+  return graph::resolve(parameter, setting, spacing, diagonal);
 }
 
 }  // namespace

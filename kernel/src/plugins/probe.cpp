@@ -13,7 +13,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "plugins/search.hpp"
 #include "velum/error.hpp"
@@ -24,6 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 /// Where the child writes its answer; its standard output belongs to whatever the plugin prints.
 constexpr int kAnswer = 3;
+/// How many times its limit a child is given that the machine does not serve.
+constexpr int kPatience = 12;
 
 struct Pipe {
   int read = -1;
@@ -96,6 +100,25 @@ bool read_answer(int from, Clock::time_point deadline, std::string& answer) {
   }
 }
 
+/// Has the child waited for something, or computed, for as long as it may take? One that is ready
+/// to run, stopped or waiting for a disk was only not served.
+bool is_hung(pid_t child, std::chrono::milliseconds limit) {
+  std::ifstream file(fmt::format("/proc/{}/stat", child));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == std::string::npos) return true;
+  std::istringstream fields(text.substr(name_end + 1));
+  char state = '?';
+  fields >> state;
+  long long field = 0;
+  for (int skipped = 0; skipped < 10; ++skipped) fields >> field;  // up to the times, 14 and 15
+  long long user = 0;
+  long long system = 0;
+  fields >> user >> system;
+  const long long ticks = ::sysconf(_SC_CLK_TCK);
+  return state == 'S' || (user + system) * 1000 / ticks >= limit.count();
+}
+
 int end_child(pid_t child, bool finished) {
   // A child that has answered and closed its end leaves at once; any other is made to.
   if (!finished) ::kill(-child, SIGKILL);
@@ -121,18 +144,25 @@ std::string how_it_ended(int status) {
 
 Probed probe_afresh(const std::filesystem::path& file, std::chrono::milliseconds limit) {
   Pipe pipe;
-  const auto deadline = Clock::now() + limit;
   const pid_t child = start_child(file, pipe.write);
   pipe.close_write();
   std::string text;
-  const bool finished = read_answer(pipe.read, deadline, text);
+  bool finished = false;
+  bool hung = false;
+  std::chrono::milliseconds waited{0};
+  while (!finished && !hung && waited < kPatience * limit) {
+    finished = read_answer(pipe.read, Clock::now() + limit, text);
+    waited += limit;
+    hung = !finished && is_hung(child, limit);
+  }
   const int status = end_child(child, finished);
 
   Probed probed;
   const auto answer = nlohmann::json::parse(text, nullptr, false);
   if (!finished) {
     probed.quarantined = fmt::format("hangs when it is opened: no answer within {} s",
-                                     std::chrono::duration<double>(limit).count());
+                                     std::chrono::duration<double>(waited).count());
+    probed.uncertain = !hung;
   } else if (!answer.is_object()) {
     probed.quarantined = how_it_ended(status);
   } else if (answer.contains("thrown")) {

@@ -16,9 +16,12 @@ struct Probed {
   /// Why it is refused though opening it is harmless, such as an undefined symbol; else empty.
   std::string refused;
   std::string summary;
+  /// The next probe could show something else: the machine was too busy to tell.
+  bool uncertain = false;
 };
 
-/// How long opening a plugin may take.
+/// How long opening a plugin may take, in time of its own: waiting for what does not come, or
+/// computing. Where the machine has no time for it, twelve times as long.
 #if defined(VELUM_SANITIZED)
 inline constexpr std::chrono::milliseconds kProbeTime{30000};  // sanitizers are slow to begin
 #else

@@ -57,7 +57,7 @@ std::optional<Probed> remembered(const fs::path& cache, const Json& key) {
     constexpr std::uint64_t kLimit = 1U << 20U;
     const Json json = Json::parse(FileContent(cache, kLimit).text(), nullptr, false);
     if (!json.is_object() || json.value("key", Json()) != key) return std::nullopt;
-    return Probed{text(json, "quarantined"), "", text(json, "summary")};
+    return Probed{text(json, "quarantined"), "", text(json, "summary"), false};
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -86,7 +86,7 @@ Probed probe(const fs::path& file) {
   const fs::path cache = cache_file(file);
   if (auto known = remembered(cache, key)) return *std::move(known);
   Probed probed = probe_afresh(file);
-  if (probed.refused.empty()) remember(cache, file, key, probed);
+  if (probed.refused.empty() && !probed.uncertain) remember(cache, file, key, probed);
   return probed;
 }
 

@@ -185,15 +185,14 @@ void NodeRunner::record_timing(State& state, const Timing& timing) {
 
 void NodeRunner::check_not_empty(const State& state, const Results& results) {
   if (state.node->allow_empty) return;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    if (!results[i] || !is_empty(*results[i])) continue;
-    const std::string& port = state.node->info->outputs[i].name;
-    const std::string culprit = who_emptied(state);
-    std::string message = fmt::format("the {} '{}' is empty", name_of(type_of(*results[i])), port);
-    if (!culprit.empty()) message += ": " + culprit;
-    throw CodedError(Fault::stage, kEmptyResult, message,
-                     "loosen its parameters, or say `allow_empty = true` in the node");
-  }
+  // Further outputs, such as the points that a filter removed, may well be empty.
+  if (results.empty() || !results[0] || !is_empty(*results[0])) return;
+  const std::string culprit = who_emptied(state);
+  std::string message = fmt::format("the {} '{}' is empty", name_of(type_of(*results[0])),
+                                    state.node->info->outputs[0].name);
+  if (!culprit.empty()) message += ": " + culprit;
+  throw CodedError(Fault::stage, kEmptyResult, message,
+                   "loosen its parameters, or say `allow_empty = true` in the node");
 }
 
 // Follows what is empty up the wires to the stage that was given something and gave nothing.

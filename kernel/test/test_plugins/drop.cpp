@@ -12,14 +12,17 @@ struct Drop {
     return velum::About<Drop>("Drops what is high.")
         .in("cloud")
         .out("cloud")
+        .out("dropped")
         .param(&Drop::above, "above", "highest z that stays", velum::anything());
   }
-  velum::Cloud operator()(const velum::Cloud& cloud, velum::Context&) const {
+  std::tuple<velum::Cloud, velum::Cloud> operator()(const velum::Cloud& cloud,
+                                                    velum::Context&) const {
     std::vector<std::int32_t> kept;
+    std::vector<std::int32_t> dropped;
     for (velum::Index i = 0; i < cloud.size(); ++i)
-      if (cloud.positions()(2, i) <= static_cast<float>(above))
-        kept.push_back(static_cast<std::int32_t>(i));
-    return cloud.select(kept);
+      (cloud.positions()(2, i) <= static_cast<float>(above) ? kept : dropped)
+          .push_back(static_cast<std::int32_t>(i));
+    return {cloud.select(kept), cloud.select(dropped)};
   }
 };
 

@@ -48,7 +48,7 @@ velum::Table corners_of(const velum::sail::Shape& shape) {
 
 struct SailShape {
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d bow = Eigen::Vector3d::UnitX();
+  std::optional<Eigen::Vector3d> bow;
   std::vector<double> heights{0.25, 0.5, 0.75};
   Edge border = Edge::automatic;
   double band = 0.1;
@@ -62,7 +62,8 @@ struct SailShape {
         .out("table", "one row a section, in the order of `heights`")
         .out("corners", "tack, clew, head and peak (the leech's upper end)")
         .param(&SailShape::up, "up", "direction to the masthead; sections are normal to it")
-        .param(&SailShape::bow, "bow", "direction to the bow, from leech to luff")
+        .param(&SailShape::bow, "bow",
+               "direction to the bow, from leech to luff; unset: [1, 0, 0], with a warning")
         .param(&SailShape::heights, "heights",
                "of the sections, as shares of the way from tack to head", velum::between(0.0, 1.0))
         .choice(&SailShape::border, "border", "where the sail's edge is",
@@ -110,11 +111,17 @@ struct SailShape {
 
   [[nodiscard]] velum::sail::Shape measured(const Input& input, velum::Context& context) const {
     const bool outward = compensate(input);
+    if (!bow)
+      context.warn(
+          "'bow' is not given: [1, 0, 0] is taken to point to the bow; luff and leech change "
+          "places "
+          "where it points aft");
+    const Eigen::Vector3d forward = bow.value_or(Eigen::Vector3d::UnitX());
     context.info(outward ? "the border was moved outward by half a scan step (border = compensated)"
                          : "the border is that of the input (border = as_is)");
     if (const auto* surface = std::get_if<velum::Surface>(&input))
-      return velum::sail::measure(*surface, up, bow, heights, context);
-    return velum::sail::measure(std::get<velum::Mesh>(input), up, bow,
+      return velum::sail::measure(*surface, up, forward, heights, context);
+    return velum::sail::measure(std::get<velum::Mesh>(input), up, forward,
                                 {heights, band, tangent, outward}, context);
   }
 

@@ -49,9 +49,20 @@ struct RegionOfInterest {
         .deterministic();
   }
 
+  void check() const {
+    if (centre.has_value() != radius.has_value())
+      throw velum::Error(velum::Fault::graph, "a ball needs both 'centre' and 'radius'")
+          .at(centre ? "centre" : "radius");
+    if (!min && !max && !centre && !min_range && !max_range)
+      throw velum::Error(velum::Fault::graph, "no region is given")
+          .hint("give min and max, centre and radius, or min_range and max_range");
+    if (min && max && (min->metres.array() > max->metres.array()).any())
+      throw velum::Error(velum::Fault::graph, "the box has a 'min' above its 'max'").at("min");
+  }
+
   velum::Cloud operator()(const velum::Cloud& cloud, velum::Context& context) const {
     context.check();
-    require_a_region(cloud);
+    require_sensor(cloud);
     std::vector<Eigen::Vector3d> sensors;
     for (const velum::Sensor& sensor : cloud.sensors())
       sensors.push_back(sensor.pose.translation());
@@ -72,14 +83,7 @@ struct RegionOfInterest {
   }
 
  private:
-  void require_a_region(const velum::Cloud& cloud) const {
-    if (centre.has_value() != radius.has_value())
-      throw velum::Error(velum::Fault::graph, "a ball needs both 'centre' and 'radius'");
-    if (!min && !max && !centre && !min_range && !max_range)
-      throw velum::Error(velum::Fault::graph, "no region is given")
-          .hint("give min and max, centre and radius, or min_range and max_range");
-    if (min && max && (min->metres.array() > max->metres.array()).any())
-      throw velum::Error(velum::Fault::graph, "the box has a 'min' above its 'max'");
+  void require_sensor(const velum::Cloud& cloud) const {
     if ((min_range || max_range) && cloud.sensors().empty() && !cloud.empty())
       throw velum::Error(velum::Fault::stage, "a range was asked for, but the cloud has no sensor")
           .hint("use a box or a ball, or a file format that carries the sensor's pose");

@@ -29,8 +29,16 @@ struct RemovePoints {
         .reference("thesis 4.2: elimination of picked points");
   }
 
+  void check() const {
+    if (radius && points.empty())
+      throw velum::Error(velum::Fault::graph, "'radius' is about 'points', which are not given")
+          .at("radius");
+  }
+
   velum::Cloud operator()(const velum::Cloud& cloud, velum::Context& context) const {
     context.check();
+    if (points.empty() && indices.empty() && labels.empty())
+      context.warn("nothing is said to be removed: neither points, indices nor labels are given");
     std::vector<std::uint8_t> keep(static_cast<std::size_t>(cloud.size()), 1);
     if (!cloud.empty()) {
       drop_places(cloud, keep);

@@ -63,7 +63,10 @@ TEST_CASE("a point that is named twice is removed once") {
 
 TEST_CASE("nothing to remove changes nothing") {
   const Cloud in = row();
-  CHECK(stage().run(in).cloud().position_column().same_storage(in.position_column()));
+  const auto outcome = stage().run(in);
+  CHECK(outcome.cloud().position_column().same_storage(in.position_column()));
+  CHECK(outcome.warnings.size() == 1);
+  CHECK_THROWS_AS(stage().set("radius", "1 m").run(in), velum::Error);  // about no points
 }
 
 TEST_CASE("a number beyond the cloud, and labels where there are none, are errors") {

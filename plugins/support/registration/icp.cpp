@@ -83,14 +83,16 @@ class Icp {
     const Index least = pairs.planar() ? 6 : 3;
     if (sums.pairs() < least)
       throw Error(Fault::stage,
-                  fmt::format("{} of {} source points have a target point {}within {:.6g} m;"
-                              " {} pairs are needed",
+                  fmt::format("{} of {} source points have a target point{}{}; {} pairs are needed",
                               sums.pairs(), pairs.size(),
                               options_.normal_angle < std::numbers::pi ||
                                       options_.pairing == Pairing::reciprocal
-                                  ? "that fits "
+                                  ? " that fits"
                                   : "",
-                              options_.max_distance, least))
+                              std::isfinite(options_.max_distance)
+                                  ? fmt::format(" within {:.6g} m", options_.max_distance)
+                                  : "",
+                              least))
           .hint(
               "bring the clouds closer first (registration.planes, registration.svd), or raise "
               "max_distance");

@@ -145,7 +145,7 @@ Components components(const ConstPoints& positions, double radius, Context& cont
   const double extent = static_cast<double>(
       (positions.rowwise().maxCoeff() - positions.rowwise().minCoeff()).maxCoeff());
   if (!(radius > 1e-9 * extent))
-    throw Error(Fault::graph,
+    throw Error(Fault::stage,
                 fmt::format("a radius of {} m is nothing beside an extent of {} m", radius, extent))
         .hint("a few times the points' spacing is usual");
   context.check();
