@@ -83,7 +83,7 @@ test("wires find nodes whose names have dots", () => {
   assert.deepEqual(wiresOf(nodes).map(({ from, output }) => [from, output]), [["a.b", ""], ["a.b", "mesh"]]);
 });
 
-const picked = (id, ...point) => ({ value: { id, node: id.split(".")[0] }, index: 3, point });
+const picked = (id, ...point) => ({ value: { id, node: id.split(".")[0], type: id.split(".")[1] }, index: 3, point });
 
 test("picks become pairs, source and target as the graph has them", () => {
   const list = [picked("b.cloud", 1, 2, 3), picked("a.cloud", 4, 5, -0.000001)];
@@ -91,6 +91,16 @@ test("picks become pairs, source and target as the graph has them", () => {
   assert.match(picksToml(list, nodes), /source = \["4.00000 m", "5.00000 m", "0.00000 m"\], target = \["1.00000 m"/);
   assert.match(picksToml(list, []), /source = \["1.00000 m"/);
   assert.equal(picksToml(list.slice(1), nodes), null);
+});
+
+test("picks in a mesh are removed from the cloud that it was made of", () => {
+  const nodes = [
+    { name: "mesh", in: { cloud: { from: "smooth.cloud", type: "cloud" } } },
+    { name: "repaired", in: { mesh: { from: "mesh.mesh", type: "mesh" } } },
+    { name: "truth", in: {} },
+  ];
+  assert.match(cleaningToml([picked("repaired.mesh", 1, 2, 3)], nodes), /^\[node\.smooth_cleaned\]\n.*\nin = "smooth\.cloud" {2}# of which repaired\.mesh was made\n/);
+  assert.match(cleaningToml([picked("truth.mesh", 1, 2, 3)], nodes), /^# truth\.mesh was made of no cloud/);
 });
 
 test("picks become a node that removes them", () => {

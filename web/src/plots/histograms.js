@@ -68,7 +68,7 @@ function tails({ below = 0, above = 0 }) {
 }
 
 /** The quantile, straight within its bin. */
-function quantile(histogram, share) {
+export function quantile(histogram, share) {
   const { lo, hi, counts } = histogram;
   const wanted = share * total(histogram);
   let below = histogram.below ?? 0;

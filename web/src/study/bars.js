@@ -22,7 +22,7 @@ export function bars(study, { measure, log }, variants) {
     }],
     layout: {
       xaxis: { title: study.titled(measure), ...(log && logAxis(variants.map(({ summary }) => shown(summary[measure].mean)))), rangemode: "tozero" },
-      yaxis: { tickvals: names.map((_, i) => i), ticktext: names, autorange: "reversed", ticks: "" },
+      yaxis: { tickvals: names.map((_, i) => i), ticktext: names, autorange: "reversed", ticks: "", zeroline: false },
       bargap: 0.3,
     },
   };

@@ -3,8 +3,10 @@
 // Distributions of a study: all variants in one picture, as shares, so that they can be compared.
 import { h } from "../dom.js";
 import { heading, scaleFor } from "../format.js";
+import { quantile } from "../plots/histograms.js";
 import { Plot } from "../plots/plot.js";
 
+const kMain = 0.97;  // share of each variant that the picture shows at least; the rest by zooming out
 const kDashes = ["solid", "dot", "dash", "dashdot", "longdash"];
 
 /** A picture for each distribution that at least two variants have; null where there is none. */
@@ -27,11 +29,13 @@ const differ = (group) => new Set(group.map(({ histogram }) => JSON.stringify(hi
 
 function figure(group, study) {
   const [{ histogram, of }] = group;
-  const size = Math.max(...group.map((one) => Math.max(Math.abs(one.histogram.lo), Math.abs(one.histogram.hi))));
+  const size = Math.max(...group.map((one) => Math.max(Math.abs(one.histogram.lo), Math.abs(quantile(one.histogram, kMain)))));
   const scale = scaleFor(histogram.unit, size);
+  // One variant's long tail must not press all others together.
+  const range = [Math.min(...group.map((one) => one.histogram.lo)), Math.max(...group.map((one) => quantile(one.histogram, kMain)))];
   const plot = new Plot(`${histogram.name} of ${of} in ${group.length} variants`, () => ({
     data: group.map((one) => curve(one, scale, study)),
-    layout: { xaxis: { title: heading(histogram.name, scale.unit) }, yaxis: { title: `share [% per ${scale.unit || "unit"}]`, rangemode: "tozero" }, showlegend: false },
+    layout: { xaxis: { title: heading(histogram.name, scale.unit), range: range.map((x) => x * scale.factor) }, yaxis: { title: `share [% per ${scale.unit || "unit"}]`, rangemode: "tozero" }, showlegend: false },
   }), 290);
   return h("figure", { class: "card" }, h("figcaption", {}, h("b", {}, histogram.name), ` ${of}`), plot.element);
 }

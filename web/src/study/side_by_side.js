@@ -53,7 +53,7 @@ class SideBySide {
     this.panes = firstOf(variants, study).map((variant) => new Pane(this, variant));
     this.colours = h("span", {});
     this.legend = h("div", { class: "shared-legend" });
-    this.element = h("div", {}, this.#tools(), h("div", { class: "panes" }, this.panes.map((pane) => pane.element)), this.legend, h("p", { class: "hint keys" }, keyHelp));
+    this.element = h("div", {}, this.#tools(), h("div", { class: "panes", "data-count": this.panes.length }, this.panes.map((pane) => pane.element)), this.legend, h("p", { class: "hint keys" }, keyHelp));
     this.refresh();
     this.panes[0]?.view.fit(broadside(this.panes.map((pane) => pane.layer?.value).filter(Boolean)));
   }

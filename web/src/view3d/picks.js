@@ -63,11 +63,11 @@ export class Picks {
   #copies() {
     const step = Math.max(...this.list.flatMap((pick) => pick.value.step())) / 2;
     const pairs = picksToml(this.list, this.nodes);
-    const shown = h("details", {}, h("summary", {}, "as TOML"), h("pre", { class: "toml" }, [pairs, cleaningToml(this.list)].filter(Boolean).join("\n\n")));
+    const shown = h("details", {}, h("summary", {}, "as TOML"), h("pre", { class: "toml" }, [pairs, cleaningToml(this.list, this.nodes)].filter(Boolean).join("\n\n")));
     return h("div", {},
       h("div", { class: "buttons" },
         pairs && copyButton("Copy as picks", () => pairs, { class: "copy-picks" }),
-        copyButton("Copy for filtering.remove_points", () => cleaningToml(this.list), { class: "copy-remove" }),
+        copyButton("Copy for filtering.remove_points", () => cleaningToml(this.list, this.nodes), { class: "copy-remove" }),
         button("Clear", () => this.clear()),
         h("small", {}, `Places are right to \u00b1${quantity(step, "m", 2)}, the rounding of this page; each is in the frame of its value.`)),
       shown);

@@ -7,14 +7,19 @@ const place = (point) => `[${point.map(length).join(", ")}]`;
 const bare = (name) => /^[A-Za-z0-9_-]+$/.test(name);
 const key = (name) => (bare(name) ? name : JSON.stringify(name));
 
-/** A node that removes the picked points from each value that was picked in. */
-export function cleaningToml(picks) {
+/**
+ * A node that removes the picked points, for each value that was picked in. Of a mesh or clusters they
+ * are removed from the cloud that these were made of.
+ */
+export function cleaningToml(picks, nodes = []) {
   const texts = [...grouped(picks)].map(([id, list]) => {
-    const [node] = list;
+    const [{ value }] = list;
+    const cloud = cloudOf(id, value.type, nodes);
+    if (!cloud) return `# ${id} was made of no cloud from which points could be removed`;
     return [
-      `[node.${key(`${node.value.node}_cleaned`)}]`,
+      `[node.${key(`${cloud.slice(0, cloud.lastIndexOf("."))}_cleaned`)}]`,
       `use = "filtering.remove_points"`,
-      `in = ${JSON.stringify(id)}`,
+      `in = ${JSON.stringify(cloud)}${cloud === id ? "" : `  # of which ${id} was made`}`,
       `points = [`,
       ...list.map(({ point, index }) => `  ${place(point)},  # point ${index}`),
       `]`,
@@ -41,6 +46,15 @@ export function picksToml(picks, nodes = []) {
     ...sources.map((source, i) => `  { source = ${place(source.point)}, target = ${place(targets[i].point)} },`),
     `]`,
   ].join("\n");
+}
+
+/** The id of the cloud itself, or of that which its node took, or a node before; null without one. */
+function cloudOf(id, type, nodes, depth = 0) {
+  if (type === "cloud") return id;
+  const node = nodes.find((one) => id.startsWith(`${one.name}.`) && !id.slice(one.name.length + 1).includes("."));
+  const wires = Object.values(node?.in ?? {}).flat().filter((wire) => wire?.from);
+  const next = wires.find((wire) => wire.type === "cloud") ?? wires[0];
+  return next && depth < nodes.length ? cloudOf(next.from, next.type, nodes, depth + 1) : null;
 }
 
 function grouped(picks) {
