@@ -60,6 +60,19 @@ std::optional<report::Views> views_kept(const fs::path& folder) {
       .hint("run the graph again with --report");
 }
 
+/// A report is no reason to start a scanner.
+void refuse_devices(const graph::Graph& graph, const fs::path& folder) {
+  for (const graph::Node& node : graph.nodes)
+    if (node.info->determinism == Determinism::none)
+      throw Error(
+          Fault::graph,
+          fmt::format("node '{}' ({}) does not give the same twice, so that the run's values "
+                      "cannot be had again",
+                      node.name, node.use))
+          .at((folder / run::kRecordName).string())
+          .hint("run the graph with --report, which leaves views.bin for this");
+}
+
 class Silent final : public run::Observer {};
 
 /// The values of the record's run, from the cache or made again.
@@ -71,6 +84,7 @@ report::Views views_again(const run::Json& record, const Options& options,
     complain(graph::format(loaded.diagnostics));
     throw Exit{graph::exit_status(loaded.diagnostics)};
   }
+  refuse_devices(*loaded.graph, options.folder);
   run::RunOptions asked =
       options_of(record, 0, out.path(), (options.folder / run::kRecordName).string());
   asked.cache = options.cache.empty() ? run::default_cache_folder() : options.cache;

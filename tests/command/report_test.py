@@ -182,6 +182,15 @@ class ReportTest(ReportCase):
         self.assertIn("points.txt", error)
         self.assertFalse((self.folder / "g.out/report.html").exists())
 
+    def test_no_device_is_started_for_a_report(self):
+        self.write("g.toml", '[node.scan]\nuse = "test.dice"\n')
+        self.velum("run", "g.toml")
+        _, error = self.velum("report", "g.out", status=2)
+        self.assertIn("node 'scan' (test.dice) does not give the same twice", error)
+        self.velum("run", "g.toml", "--report")
+        self.velum("report", "g.out")  # from views.bin
+        self.assertIn("scan.cloud", self.values())
+
     def test_views_of_another_run_are_not_shown(self):
         self.write("g.toml", CHAIN)
         self.velum("run", "g.toml", "--report")

@@ -43,8 +43,8 @@ class ViewWatch final : public run::Witness {
   std::vector<std::string> troubles_;
 };
 
-/// Bytes of the arrays of a run's report, before base64: what leaves room for the page and the
-/// record within 20 MB.
-inline constexpr std::uint64_t kRunLimit = 13'500'000;
+/// Bytes of the arrays of a run's report, before base64: what leaves room for the page (2 MB) and
+/// the record within 20 MB.
+inline constexpr std::uint64_t kRunLimit = 13'000'000;
 
 }  // namespace velum::report
