@@ -135,7 +135,8 @@ above = "2 spacing"
   REQUIRE(alone.failure);
   CHECK(alone.failure->code == "E1001");
   CHECK(run::exit_status(alone) == 1);
-  CHECK(alone.failure->message.find("of 'cloud', which has one point") != std::string::npos);
+  CHECK(alone.failure->message.find("of 'cloud', which has none: it is one point") !=
+        std::string::npos);
 }
 
 TEST_CASE("an output that was not made fails the node that needs it", "[failures]") {

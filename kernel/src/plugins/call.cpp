@@ -114,16 +114,19 @@ Setting in_metres(const StageInfo& info, const Parameter& parameter, const Setti
   if (points->empty()) return graph::resolve(parameter, setting, 1.0, 1.0);
   const double spacing = points->spacing();
   const double diagonal = points->diagonal();
-  if (!(diagonal > 0.0) || !(spacing > 0.0))
-    throw Error(
-        Fault::stage,
-        fmt::format(
-            "'{}' is relative to the spacing or diagonal of '{}', which has {}", parameter.name,
-            parameter.relative_to.empty() ? info.inputs.front().name : parameter.relative_to,
-            points->size() == 1 ? "one point"
-                                : fmt::format("{} points in one place", points->size())))
-        .hint(fmt::format("give {} in metres or another unit of length", parameter.name));
-  return graph::resolve(parameter, setting, spacing, diagonal);
+  const bool of_spacing = std::get<Length>(setting.value).of == Length::Of::spacing;
+  if ((of_spacing ? spacing : diagonal) > 0.0 || parameter.range.contains(0.0))
+    return graph::resolve(parameter, setting, spacing, diagonal);
+  const std::string& port =
+      parameter.relative_to.empty() ? info.inputs.front().name : parameter.relative_to;
+  throw Error(Fault::stage,
+              fmt::format("'{}' is relative to the {} of '{}', which has none: {}", parameter.name,
+                          of_spacing ? "spacing" : "diagonal", port,
+                          points->size() == 1
+                              ? "it is one point"
+                              : fmt::format("of its {} points {} at one place", points->size(),
+                                            of_spacing ? "most lie by twos or more" : "all lie")))
+      .hint(fmt::format("give {} in metres or another unit of length", parameter.name));
 }
 
 }  // namespace
