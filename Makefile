@@ -3,12 +3,13 @@
 # What you can do here; each installs what it needs first and is quick when nothing has changed.
 #
 #   make demo    build, run the main graph, show what was measured
+#   make demo-live  the same against two emulated scanners over TCP
 #   make test    build, run the tests
 #   make check   the long check: format, clang with sanitizers, fuzzing, threads
 #   make bench   our stages beside PCL, CGAL and Open3D, one table of ratios
 #   make build   only the release build: build/release/bin/velum
 #   make install PREFIX=/usr/local
-.PHONY: demo test check bench build install format clean
+.PHONY: demo demo-live test check bench build install format clean
 PREFIX ?= /usr/local
 
 build: build/release/build.ninja
@@ -20,6 +21,9 @@ build/release/build.ninja:
 
 demo: build
 	@tools/demo.sh
+
+demo-live: build
+	@tools/demo_live.sh
 
 test: build
 	@tools/setup.sh build

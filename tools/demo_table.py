@@ -42,6 +42,10 @@ class Run:
     def measure(self, node, name):
         return self.nodes[node]["measures"][name]["value"]
 
+    def shown(self, node, name, show):
+        """Nothing where the graph has no such node: only simulated scans have labels."""
+        return show(self.measure(node, name)) if node in self.nodes else "-"
+
     def sections(self, name):
         with open(os.path.join(self.folder, f"{name}.csv"), encoding="utf-8") as file:
             return [{column.split(" [")[0]: float(value) for column, value in row.items()}
@@ -58,7 +62,7 @@ def main():
                   *(short(r.measure("pose_error", "translation")) for r in runs), ""])
     for sail in SAILS:
         for title, node, name, show, known in rows_of(sail):
-            lines.append([title, *(show(r.measure(node, name)) for r in runs),
+            lines.append([title, *(r.shown(node, name, show) for r in runs),
                           show(runs[0].measure(f"true_{sail}", name)) if known else ""])
         found = [r.sections(sail) for r in runs]
         for i, truth in enumerate(runs[0].sections(f"true_{sail}")):

@@ -23,6 +23,7 @@ void add_new(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_info(CLI::App& app);
 void add_record(CLI::App& app);
+void add_emulate(CLI::App& app);
 
 /// The exit status of a subcommand that has said what there is to say.
 struct Exit {

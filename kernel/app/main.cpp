@@ -109,6 +109,7 @@ int run(int argc, char** argv) {
   add_convert(app);
   add_info(app);
   add_record(app);
+  add_emulate(app);
   return parse(app, argc, argv);
 }
 

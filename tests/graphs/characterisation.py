@@ -3,18 +3,23 @@
 # SPDX-License-Identifier: MIT
 """characterisation.py VELUM FOLDER THESIS_TABLES: runs the studies of graphs/characterisation/ and holds
 what they find against the thesis's numbers. Skipped without these (exit 77); the studies must still
-run."""
+run.
+
+characterisation.py VELUM FOLDER --recorded: the study of distances on recordings of an emulated scanner.
+"""
 import csv
 import json
 import math
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import tomllib
 
 MM = 1e-3
-velum, folder, tables = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+velum, folder = sys.argv[1], pathlib.Path(sys.argv[2])
 faults = []
 
 
@@ -148,7 +153,68 @@ def mixed_pixel(study, thesis):
     within("farthest reading of the board before the sky [mm]", max(depth), 1000, 1060)
 
 
+RECORD = """
+format = 1
+[node.record]
+use = "devices.recorder"
+address = "ADDRESS"
+frequency = 50
+resolution = 0.5
+view_from = 88
+view_to = 92
+lines = 400
+file = "NAME.vrec"
+"""
+
+
+def record(scanner, name, work):
+    """A recording of a scanner that stands before the board."""
+    emulator = subprocess.Popen(
+        [velum, "emulate", folder / "scenes" / "boards.toml", "--scanner", scanner, "--port", "0",
+         "--speed", "0", "--frequency", "50"], stdout=subprocess.PIPE, text=True)
+    port = re.search(r"port (\d+) \(host port", emulator.stdout.readline())[1]
+    graph = work / "record.toml"
+    graph.write_text(RECORD.replace("ADDRESS", f"127.0.0.1:{port}").replace("NAME", name))
+    subprocess.run([velum, "run", graph, "--out", work / "recordings"], check=True,
+                   stdout=subprocess.DEVNULL)
+    emulator.terminate()
+    emulator.wait(30)
+
+
+def recorded():
+    with tempfile.TemporaryDirectory() as temporary:
+        work = pathlib.Path(temporary)
+        shutil.copy(folder / "recorded" / "distance.toml", work)
+        for metres in (2, 6):
+            record(f"at_{metres}m", f"distance_{metres:02d}m", work)
+            shutil.move(work / "recordings" / f"distance_{metres:02d}m.vrec", work)
+            shutil.rmtree(work / "recordings")
+        (work / "recordings").mkdir()
+        for file in work.glob("*.vrec"):
+            shutil.move(file, work / "recordings")
+        status = subprocess.run([velum, "study", work / "distance.toml", "--out", work / "out"],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+        assert status == 3, status
+        variants = json.loads((work / "out" / "study.json").read_text())["variants"]
+    for variant in variants:
+        title = variant["axes"]["distance"]
+        if title not in ("2 m", "6 m"):
+            assert variant["status"] != "ok", title
+            continue
+        assert variant["status"] == "ok", variant
+        metres = int(title.split()[0])
+        # The emulator's ranges are whole millimetres.
+        near(f"error at {title} [mm]", variant["summary"]["statistics.error"]["mean"] / MM,
+             3.4 + metres, 0.6)
+        within(f"spread at {title} [mm]",
+               variant["summary"]["statistics.deviation"]["mean"] / MM, 3.4, 4.4)
+
+
 def main():
+    if sys.argv[3] == "--recorded":
+        recorded()
+        sys.exit("\n".join(faults) or 0)
+    tables = pathlib.Path(sys.argv[3])
     thesis = tomllib.loads(tables.read_text()) if tables.exists() else None
     with tempfile.TemporaryDirectory() as work:
         for check in (drift, distance, material, colour, incidence, angulation, light, mixed_pixel):

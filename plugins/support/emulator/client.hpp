@@ -30,6 +30,8 @@ class Client {
   void send(std::string bytes, double pause = 0.0);
   /// Sends what can be sent at `now` [s]; false when the client is gone.
   [[nodiscard]] bool flush(double now);
+  /// A client that does not read its answers is not heard until it does.
+  [[nodiscard]] bool listens() const { return waiting_ < kRoom; }
   [[nodiscard]] std::size_t waiting() const { return waiting_; }
   /// Is there something that could be sent at `now`?
   [[nodiscard]] bool wants_out(double now) const { return waiting_ > 0 && now >= not_before_; }

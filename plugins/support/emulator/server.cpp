@@ -80,8 +80,10 @@ void Server::run(Context& context) {
 // How long nothing can happen by itself [s].
 double Server::patience() const {
   double wait = kPatience;
-  for (const auto& client : clients_)
-    if (client->waiting() > 0) wait = std::min(wait, client->not_before() - now());
+  for (const auto& client : clients_) {
+    const double pause = client->not_before() - now();
+    if (client->waiting() > 0 && pause > 0.0) wait = std::min(wait, pause);
+  }
   if (quiet()) return std::max(0.0, std::min(wait, quiet_until_ - now()));
   const bool somebody = std::any_of(clients_.begin(), clients_.end(), [](const auto& client) {
     return client->session.scans && !client->mute;
@@ -97,7 +99,8 @@ void Server::wait() {
   const double time = now();
   for (const auto& client : clients_) {
     const bool out = client->wants_out(time);
-    const auto events = static_cast<short>((quiet() ? 0 : POLLIN) | (out ? POLLOUT : 0));
+    const bool in = !quiet() && client->listens();
+    const auto events = static_cast<short>((in ? POLLIN : 0) | (out ? POLLOUT : 0));
     all.push_back({client->descriptor(), events, 0});
   }
   // Rounded up to the next millisecond, or it would spin.
@@ -121,13 +124,12 @@ void Server::accept_clients() {
 void Server::read_clients() {
   device_.clock = clock();
   for (auto& client : clients_) {
-    if (client->closing) continue;
+    if (client->closing || !client->listens()) continue;
     if (!client->receive()) {
       client.reset();
       continue;
     }
-    // A client that does not read its answers is not heard until it does.
-    while (client->waiting() < Client::kRoom) {
+    while (client->listens()) {
       const auto telegram = client->request();
       if (!telegram) break;
       handle(*client, *telegram);
