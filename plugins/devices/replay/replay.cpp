@@ -8,6 +8,7 @@
 
 #include "lms511/import.hpp"
 #include "lms511/parameters.hpp"
+#include "points.hpp"
 
 namespace {
 
@@ -46,14 +47,18 @@ class Pace {
 struct Replay : lms::SweepParameters {
   velum::InputFile file;
   double pace = 0.0;
+  velum::LengthUnit units;
 
   static auto about() {
     velum::About<Replay> about("The cloud that a recorded scan of an LMS 511 gives.");
     about.out("cloud", "in the scanner's own frame")
         .drops_columns()
-        .param(&Replay::file, "file",
-               "a recording (.vrec), a capture (pcap, pcapng), or telegrams back to back")
+        .param(
+            &Replay::file, "file",
+            "a recording (.vrec), a capture (pcap, pcapng), telegrams back to back, or the points "
+            "of the thesis's acquisition program, x y z a line")
         .required()
+        .param(&Replay::units, "units", "unit of the lengths in a file of points")
         .param(&Replay::pace, "pace", "1: as fast as it was recorded; 2: twice as fast; 0: at once",
                velum::at_least(0.0));
     lms::add_sweep<Replay>(about);
@@ -64,6 +69,8 @@ struct Replay : lms::SweepParameters {
   void check() const { check_sweep(); }
 
   velum::Cloud operator()(velum::Context& context) const {
+    if (velum::replay::is_points(file.path))
+      return velum::replay::read_points(file.path, units.metres, sensor, context);
     lms::LineGatherer lines;
     Pace clock(pace, context);
     const lms::ImportCounts counts = lms::read_records(

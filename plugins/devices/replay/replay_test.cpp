@@ -128,6 +128,32 @@ TEST_CASE("what is no recording is refused with the file's name") {
   fs::remove(path);
 }
 
+TEST_CASE("points of the thesis's acquisition program get their tilt and range back") {
+  const Recording recording;
+  const Cloud swept = recording.stage().run().cloud();
+  const fs::path path = fs::temp_directory_path() / "velum_acquisition.txt";
+  {
+    std::ofstream file(path);
+    file.precision(10);
+    for (Index i = 0; i < swept.size(); ++i)
+      file << 1e3 * swept.positions()(0, i) << " " << 1e3 * swept.positions()(1, i) << " "
+           << 1e3 * swept.positions()(2, i) << "\n";
+  }
+  const Cloud read =
+      Stage("devices.replay").set("file", path.string()).set("units", "mm").run().cloud();
+  REQUIRE(read.size() == swept.size());
+  const auto differ = [&](const char* name, auto zero) {
+    using T = decltype(zero);
+    return static_cast<double>(
+        (read.column(name).vector<T>() - swept.column(name).vector<T>()).cwiseAbs().maxCoeff());
+  };
+  CHECK(differ("tilt", 0.0F) < 2e-4);  // beams on the axis take that of the beam before
+  CHECK(differ("range", 0.0F) < 1e-5);
+  CHECK(differ("line", 0) == 0);
+  CHECK(differ("beam", 0) == 0);
+  fs::remove(path);
+}
+
 TEST_CASE("a tilt that lacks a parameter is a mistake in the graph") {
   const Recording recording;
   Stage stage("devices.replay");
