@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <velum/stage.hpp>
@@ -26,8 +27,11 @@ class Pace {
       first_ = time;
       start_ = Clock::now();
     }
-    const auto due = start_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
-                                  static_cast<double>(time - first_) / factor_));
+    constexpr double kLongest = 1e9;  // [s]; more is damage
+    const double passed = 1e-9 * (static_cast<double>(time) - static_cast<double>(first_));
+    const auto due =
+        start_ + std::chrono::duration_cast<Clock::duration>(
+                     std::chrono::duration<double>(std::clamp(passed / factor_, 0.0, kLongest)));
     constexpr std::chrono::milliseconds kSlice(20);
     for (auto now = Clock::now(); now < due; now = Clock::now()) {
       context_.check();

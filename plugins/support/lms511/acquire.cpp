@@ -138,9 +138,12 @@ class Acquisition::Connection {
       session_.pump(kSlice);
       owner_.take_messages(sink_);
       const std::chrono::duration<double> quiet = SteadyClock::now() - heard_;
+      // Before the first scan the motor may be changing its speed.
       const double patience =
-          owner_.streaming_ ? std::max(timeouts().silence, 3.0 / frequency_) : timeouts().ready;
-      if (quiet.count() > std::min(patience, timeouts().give_up))
+          owner_.streaming_
+              ? std::min(std::max(timeouts().silence, 3.0 / frequency_), timeouts().give_up)
+              : timeouts().ready;
+      if (quiet.count() > patience)
         throw ConnectionLost(fmt::format("no scan for {:.1f} s", quiet.count()));
     }
     stop_device(session_, owner_.dialect_, timeouts().answer);

@@ -36,9 +36,14 @@ bool LineGatherer::add(const Record& record) {
     case Event::connected:
       fresh_ = true;
       ++counts_.connections;
+      if (gap_open_)
+        gaps_.back() +=
+            fmt::format(", connected again at {:.3f} s", 1e-9 * static_cast<double>(record.time));
+      gap_open_ = false;
       return false;
     case Event::gap:
       ++counts_.gaps;
+      gap_open_ = true;
       gaps_.push_back(
           fmt::format("{} at {:.3f} s", record.bytes, 1e-9 * static_cast<double>(record.time)));
       return false;

@@ -55,7 +55,7 @@ class LineGatherer {
   /// When the trigger came [ns], or nothing.
   [[nodiscard]] std::optional<std::int64_t> trigger() const { return trigger_; }
   [[nodiscard]] const LineCounts& counts() const { return counts_; }
-  /// "what, when" of each gap.
+  /// Why and when each gap began, and when the connection was back.
   [[nodiscard]] const std::vector<std::string>& gaps() const { return gaps_; }
   /// Number of the device; 0 before the first scan.
   [[nodiscard]] std::uint32_t serial() const { return serial_; }
@@ -74,6 +74,7 @@ class LineGatherer {
   LineCounts counts_;
   std::uint32_t serial_ = 0;
   std::int32_t number_ = 0;
+  bool gap_open_ = false;
   bool fresh_ = true;  ///< no scan yet on this connection
   std::uint16_t counter_ = 0;
   std::int64_t clock_ = 0;

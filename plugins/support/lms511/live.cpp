@@ -66,7 +66,8 @@ void SweepEnd::see_angle(double angle) {
   if (!tilt_.end) return;
   if (!first_angle_) first_angle_ = angle;
   const double way = *tilt_.end - *first_angle_;
-  if (way != 0.0) now_at((angle - *first_angle_) / way);
+  constexpr double kRounding = 1e-4;  // a plate that stops at the end may read a count less
+  if (way != 0.0) now_at((angle - *first_angle_) / way + kRounding);
 }
 
 void SweepEnd::see(const LineGatherer& lines) {

@@ -102,8 +102,10 @@ class Pcapng {
     if (interface >= interfaces_.size()) return;
     const Interface& from = interfaces_[interface];
     Segment segment;
-    segment.time = static_cast<std::int64_t>(static_cast<long double>(ticks) *
-                                             static_cast<long double>(from.tick) * 1e9L);
+    constexpr double kLatest = 4e18;  // [ns], so that differences stay representable
+    segment.time = static_cast<std::int64_t>(
+        std::min(static_cast<long double>(ticks) * static_cast<long double>(from.tick) * 1e9L,
+                 static_cast<long double>(kLatest)));
     if (parse_packet(bytes, from.link, segment)) sink_(segment);
   }
 

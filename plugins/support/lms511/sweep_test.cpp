@@ -212,7 +212,7 @@ TEST_CASE("lost, repeated and foreign scans are counted, and connections are not
   CHECK(lines.lines().back().number == 8);
   CHECK(lines.lines().back().connection == 1);
   CHECK(lines.lines().back().start == 17);
-  CHECK(lines.gaps() == std::vector<std::string>{"no data at 2.000 s"});
+  CHECK(lines.gaps() == std::vector<std::string>{"no data at 2.000 s, connected again at 3.000 s"});
 }
 
 TEST_CASE("several echoes become points of their own, or the one that is asked for") {
