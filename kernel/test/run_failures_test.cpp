@@ -121,7 +121,7 @@ allow_empty = true
 [node.again]
 use = "test.drop"
 in = "low"
-above = "2 spacing"
+slack = "2 spacing"
 allow_empty = true
 )");
   CHECK_FALSE(record.failure);  // of nothing any length will do
@@ -130,7 +130,7 @@ allow_empty = true
 [node.low]
 use = "test.drop"
 in = "start"
-above = "2 spacing"
+slack = "2 spacing"
 )");
   REQUIRE(alone.failure);
   CHECK(alone.failure->code == "E1001");
