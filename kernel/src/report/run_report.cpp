@@ -47,6 +47,10 @@ Packed pack_within(Views views, const Page& page, const run::Json& json) {
   }
 }
 
+std::string heading(const std::string& title, const std::string& graph) {
+  return title.empty() ? std::filesystem::path(graph).stem().string() : title;
+}
+
 void leave_run_report(const std::filesystem::path& folder, const Page& page, const Views& views,
                       plugins::Registry& registry) {
   const std::string record = hash_of(FileContent(folder / run::kRecordName).bytes());
@@ -61,7 +65,8 @@ void write_run_report(const std::filesystem::path& folder, const Page& page, Vie
   for (const run::Json& node : record.at("nodes")) stages.insert(node.at("use").get<std::string>());
   run::Json json = {{"format", 1}, {"kind", "run"}};
   json["velum"] = record.at("velum");
-  json["title"] = record.at("graph").at("title");
+  json["title"] = heading(record.at("graph").at("title").get<std::string>(),
+                          record.at("graph").at("path").get<std::string>());
   json["run"] = std::move(record);
   json["stages"] = describe_stages(stages, registry);
   Packed packed = pack_within(std::move(views), page, json);

@@ -21,6 +21,9 @@ namespace velum::report {
 void leave_run_report(const std::filesystem::path& folder, const Page& page, const Views& views,
                       plugins::Registry& registry);
 
+/// What a page is headed with: the title, or the graph's file without its ending where it has none.
+[[nodiscard]] std::string heading(const std::string& title, const std::string& graph);
+
 /// Writes DIR/report.html from DIR/run.json and views of its values; where the page and the record
 /// leave too little room, with fewer points. Throws Error.
 void write_run_report(const std::filesystem::path& folder, const Page& page, Views views,

@@ -160,7 +160,7 @@ void write_study_report(const fs::path& folder, const Page& page, plugins::Regis
   Json json = {{"format", 1}, {"kind", "study"}};
   try {
     json["velum"] = study.at("velum");
-    json["title"] = study.at("title");
+    json["title"] = heading(study.at("title").get<std::string>(), study.value("graph", ""));
     Shown found = shown(folder, study);
     json["stages"] = describe_stages(found.stages, registry);
     const std::size_t variants = study.at("variants").size();
