@@ -202,6 +202,8 @@ test("on paper everything is open and every plot drawn", async () => {
   await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
   assert.equal(await page.locator("details:not([open])").count(), 0);
   assert.equal(await page.locator(".plot:not(:has(svg))").count(), 0);
+  const tooWide = await page.evaluate(() => [...document.querySelectorAll(".plot .main-svg")].filter((svg) => svg.getBoundingClientRect().width > svg.closest(".plot").getBoundingClientRect().width + 1).length);
+  assert.equal(tooWide, 0);
   await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
   assert.ok(await page.locator("details:not([open])").count() > 0);
 });

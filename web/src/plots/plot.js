@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 import Plotly from "plotly.js-cartesian-dist-min";
 import { h } from "../dom.js";
-import { layoutFor, onTheme } from "./theme.js";
+import { isPrinting, layoutFor, onTheme } from "./theme.js";
 
 const kConfig = { displaylogo: false, responsive: true, displayModeBar: "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], showSendToCloud: false, showEditInChartStudio: false };
 
@@ -45,9 +45,14 @@ export class Plot {
 }
 
 /** Draws all that has not been in sight yet, for paper. */
-export function drawAll() {
+function drawAll() {
   for (const plot of all) plot.draw();
 }
 
-onTheme(() => all.forEach((plot) => plot.update()));
-window.addEventListener("beforeprint", drawAll);
+onTheme(() => {
+  if (isPrinting()) drawAll();
+  for (const plot of all) {
+    plot.update();
+    if (plot.drawn) Plotly.Plots.resize(plot.element);
+  }
+});

@@ -8,7 +8,7 @@ let printing = false;
 
 export const isDark = () => dark.matches && !printing;
 
-/** Calls `listener` whenever the colours change. */
+/** Calls `listener` whenever the colours change, or the page is laid out for paper or back. */
 export const onTheme = (listener) => listeners.add(listener);
 
 const tell = () => listeners.forEach((listener) => listener());
@@ -16,11 +16,15 @@ dark.addEventListener("change", tell);
 const setPrinting = (value) => {
   if (printing === value) return;
   printing = value;
+  // Laid out as wide as paper is before the plots and views inside are drawn for it.
+  document.documentElement.classList.toggle("paper", value);
   tell();
 };
 window.addEventListener("beforeprint", () => setPrinting(true));
 window.addEventListener("afterprint", () => setPrinting(false));
 window.matchMedia("print").addEventListener("change", (event) => setPrinting(event.matches));
+
+export const isPrinting = () => printing;
 
 /** Of text and of what measures. */
 export const ink = () => (isDark() ? "#d7dee6" : "#25303b");

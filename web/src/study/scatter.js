@@ -6,6 +6,7 @@ import { logAxis } from "../plots/axis.js";
 import { Plot } from "../plots/plot.js";
 import { front } from "./pareto.js";
 
+const kMostIntervals = 60;  // more would hide the points
 const kSymbols = ["circle", "square", "diamond", "triangle-up", "cross", "x", "star", "pentagon"];
 
 export function scatterSection(study) {
@@ -53,7 +54,7 @@ function picture(study, state) {
     const key = study.label(point.variant, study.telling.slice(0, 1));
     groups.set(key, [...(groups.get(key) ?? []), point]);
   }
-  const data = [...groups].map(([name, group]) => means(study, state, name, group));
+  const data = [...groups].map(([name, group]) => means(study, state, name, group, points.length <= kMostIntervals));
   if (state.repeats) data.unshift(repeats(study, state));
   if (best?.length > 1) data.unshift(staircase(best, study, state));
   return {
@@ -62,7 +63,7 @@ function picture(study, state) {
   };
 }
 
-function means(study, { x, y }, name, group) {
+function means(study, { x, y }, name, group, intervals) {
   const second = study.telling[1];
   const interval = (measure) => ({
     type: "data", symmetric: false, thickness: 1, width: 0,
@@ -71,8 +72,8 @@ function means(study, { x, y }, name, group) {
   });
   return {
     x: group.map((point) => point.x), y: group.map((point) => point.y), mode: "markers", name,
-    marker: { color: study.colour(group[0].variant), size: 11, symbol: group.map(({ variant }) => kSymbols[second ? second.values.indexOf(variant.axes[second.name]) % kSymbols.length : 0]), line: { width: 1, color: "rgba(128,128,128,0.5)" } },
-    error_x: interval(x), error_y: interval(y),
+    marker: { color: study.colour(group[0].variant), size: intervals ? 11 : 7, symbol: group.map(({ variant }) => kSymbols[second ? second.values.indexOf(variant.axes[second.name]) % kSymbols.length : 0]), line: { width: 1, color: "rgba(128,128,128,0.5)" } },
+    ...(intervals && { error_x: interval(x), error_y: interval(y) }),
     text: group.map(({ variant }) => `${variant.id}: ${study.label(variant)}`),
     hovertemplate: `%{text}<br>%{x:.4g} ${study.scales.get(x).unit}, %{y:.4g} ${study.scales.get(y).unit}<extra></extra>`,
   };

@@ -4,6 +4,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { h } from "../dom.js";
+import { onTheme } from "../plots/theme.js";
 import { Detail } from "./detail.js";
 import { Dome } from "./dome.js";
 import { Grid } from "./grid.js";
@@ -36,6 +37,7 @@ export class View {
     this.#bindPointer();
     bindKeys(this);
     new ResizeObserver(() => this.draw()).observe(this.element);
+    onTheme(() => this.drawNow());
     this.radius = 1;
     this.detail = new Detail(() => this.draw());
   }
