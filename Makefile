@@ -7,9 +7,10 @@
 #   make test    build, run the tests
 #   make check   the long check: format, clang with sanitizers, fuzzing, threads
 #   make bench   our stages beside PCL, CGAL and Open3D, one table of ratios
+#   make thesis  the thesis's tables as studies; writes docs/thesis.md
 #   make build   only the release build: build/release/bin/velum
 #   make install PREFIX=/usr/local
-.PHONY: demo demo-live test check bench build install format clean
+.PHONY: demo demo-live test check bench thesis build install format clean
 PREFIX ?= /usr/local
 
 build: build/release/build.ninja
@@ -37,6 +38,9 @@ bench:
 	@cmake --preset bench
 	@cmake --build --preset bench
 	@tools/bench.sh
+
+thesis: build
+	@python3 tools/thesis
 
 install: build
 	@cmake --install build/release --prefix $(PREFIX)
