@@ -133,6 +133,23 @@ TEST_CASE("every letter that is used has a drawing of its own") {
   CHECK(picture::width_of("mm", 12.0) > picture::width_of("ii", 12.0));
 }
 
+TEST_CASE("extreme sizes and numbers have pictures") {
+  const Folder folder;
+  for (const float size : {1e-40F, 1e-20F, 1e20F}) {
+    const Cloud cloud(scattered(50, {size, size, size}));
+    CHECK(report::draw_value(cloud, "a", "", folder / "a.png"));
+  }
+  for (const double most : {1.7e308, 1e18, 1e-300}) {
+    const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(50, -1.0, 1.0) * most;
+    const Eigen::VectorXd late = (Eigen::VectorXd::LinSpaced(50, 0.0, 2.0).array() + 1e18).matrix();
+    const Cloud cloud = Cloud(scattered(50, {1.0F, 1.0F, 1.0F}))
+                            .with("x", Column(numbers))
+                            .with("late", Column(late));
+    for (const char* colour : {"x", "late", "not there"})
+      CHECK(report::draw_value(cloud, "a", colour, folder / "a.png"));
+  }
+}
+
 TEST_CASE("every value with a shape has a picture, the same bytes each time") {
   const Folder folder;
   Clusters clusters;

@@ -137,6 +137,12 @@ TEST_CASE("a histogram counts every finite number once") {
   CHECK(std::accumulate(tailed.counts.begin(), tailed.counts.end(), std::uint64_t{0}) == 10000);
   const report::Histogram none = report::histogram("x", "m", {std::nan("")});
   CHECK(std::accumulate(none.counts.begin(), none.counts.end(), std::uint64_t{0}) == 0);
+  for (const double most : {1.7e308, 5e-324}) {
+    const report::Histogram extreme = report::histogram("x", "m", {-most, 0.0, most});
+    CHECK(std::accumulate(extreme.counts.begin(), extreme.counts.end(), std::uint64_t{0}) +
+              extreme.below + extreme.above ==
+          3);
+  }
   const report::Histogram equal = report::histogram("x", "m", {2.0, 2.0});
   CHECK(equal.counts[0] == 2);
 }

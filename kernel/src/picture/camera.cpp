@@ -102,7 +102,8 @@ Camera look_at(const ConstPoints& positions, const std::vector<Vector3f>& eyes, 
   constexpr double kMargin = 1.06;
   const double needed =
       std::max((far_right - left) * kMargin / width, (high - low) * kMargin / height);
-  camera.pixels = needed > 0.0 ? static_cast<float>(1.0 / needed) : 1.0F;
+  constexpr double kFinest = 1e-12;  // [m] of a pixel
+  camera.pixels = needed > kFinest ? static_cast<float>(1.0 / needed) : 1.0F;
   return camera;
 }
 

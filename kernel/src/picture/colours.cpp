@@ -54,7 +54,7 @@ std::array<Colour, 1024> make_ramp() {
 
 Colour colour_of(double share) {
   static const std::array<Colour, 1024> kRamp = make_ramp();
-  const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(kRamp.size() - 1);
+  const double at = std::min(std::max(0.0, share), 1.0) * static_cast<double>(kRamp.size() - 1);
   return kRamp[static_cast<std::size_t>(std::lround(at))];
 }
 

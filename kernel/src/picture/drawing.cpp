@@ -32,7 +32,12 @@ constexpr double kText = 14.0;
 struct Range {
   double low = 0.0;
   double high = 1.0;
-  [[nodiscard]] double share(double x) const { return high > low ? (x - low) / (high - low) : 0.5; }
+  /// Differences and ticks can be told in doubles.
+  [[nodiscard]] bool wide() const {
+    const double size = high - low;
+    return std::isfinite(size) && size > 1e-12 * std::max(std::abs(low), std::abs(high));
+  }
+  [[nodiscard]] double share(double x) const { return wide() ? (x - low) / (high - low) : 0.5; }
 };
 
 /// Of the numbers without the outermost hundredth on each side.
@@ -79,7 +84,7 @@ void draw_bar(Image& image, const Colouring& colouring, const Range& range) {
   constexpr int kBarHeight = kHeight - kTop - kBottom - 160;
   const std::string unit = colouring.unit.empty() ? "" : " [" + colouring.unit + "]";
   draw_text(image, colouring.name + unit, kLeft, kBarTop - 24, kText, ink());
-  if (!(range.high > range.low)) {
+  if (!range.wide()) {
     fill(image, kLeft, kBarTop, kBarWidth, kBarWidth, colour_of(0.5));
     draw_text(image, fmt::format("{:.4g}", range.low), kLeft + kBarWidth + 12, kBarTop + 17, kText,
               ink());
@@ -90,7 +95,10 @@ void draw_bar(Image& image, const Colouring& colouring, const Range& range) {
   const double step = round_length((range.high - range.low) / 4.0);
   // Down to the digits of the step, so that ticks read 0.2 and not 0.2000001.
   const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step))));
-  for (double k = std::ceil(range.low / step); k * step <= range.high; k += 1.0) {
+  constexpr int kMostTicks = 21;
+  for (int tick = 0; tick < kMostTicks; ++tick) {
+    const double k = std::ceil(range.low / step) + tick;
+    if (k * step > range.high) break;
     const double y = kBarTop + kBarHeight * (1.0 - range.share(k * step));
     draw_line(image, {kLeft + kBarWidth, y}, {kLeft + kBarWidth + 6.0, y}, 1.4, ink());
     const double number = k == 0.0 ? 0.0 : k * step;

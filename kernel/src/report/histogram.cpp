@@ -21,6 +21,14 @@ struct Extent {
   double hi = 0.0;
 };
 
+/// The bin of x among `count` equal ones. By halves, since the difference of two finite numbers may
+/// be infinite.
+std::size_t bin_of(double x, const Extent& extent, std::size_t count) {
+  const double half = 0.5 * extent.hi - 0.5 * extent.lo;
+  const double share = half > 0.0 ? (0.5 * x - 0.5 * extent.lo) / half : 0.0;
+  return std::min(static_cast<std::size_t>(share * static_cast<double>(count)), count - 1);
+}
+
 /// Of the finite numbers; nothing when there are none.
 std::optional<Extent> extent_of(const std::vector<double>& numbers) {
   std::optional<Extent> extent;
@@ -36,12 +44,11 @@ std::optional<Extent> extent_of(const std::vector<double>& numbers) {
 /// The range without its tails, to a fine step.
 Extent without_tails(const std::vector<double>& numbers, const Extent& whole) {
   constexpr std::size_t kFine = 4096;
-  const double scale = static_cast<double>(kFine) / (whole.hi - whole.lo);
   std::vector<std::size_t> counts(kFine, 0);
   std::size_t total = 0;
   for (const double x : numbers) {
     if (!std::isfinite(x)) continue;
-    ++counts[std::min(static_cast<std::size_t>((x - whole.lo) * scale), kFine - 1)];
+    ++counts[bin_of(x, whole, kFine)];
     ++total;
   }
   const auto most = static_cast<std::size_t>(kTail * static_cast<double>(total));
@@ -52,8 +59,9 @@ Extent without_tails(const std::vector<double>& numbers, const Extent& whole) {
   for (std::size_t left_out = counts[last]; left_out <= most; left_out += counts[--last]) {
   }
   if (last < first) return whole;
-  return {whole.lo + static_cast<double>(first) / scale,
-          whole.lo + static_cast<double>(last + 1) / scale};
+  const double step = (whole.hi - whole.lo) / static_cast<double>(kFine);
+  return {whole.lo + static_cast<double>(first) * step,
+          whole.lo + static_cast<double>(last + 1) * step};
 }
 
 }  // namespace
@@ -66,7 +74,6 @@ Histogram histogram(std::string name, std::string unit, const std::vector<double
                  .lo = lo,
                  .hi = hi,
                  .counts = std::vector<std::uint64_t>(kBins, 0)};
-  const double scale = hi > lo ? static_cast<double>(kBins) / (hi - lo) : 0.0;
   for (const double x : numbers) {
     if (!std::isfinite(x)) continue;
     if (x < lo) {
@@ -74,7 +81,7 @@ Histogram histogram(std::string name, std::string unit, const std::vector<double
     } else if (x > hi) {
       ++made.above;
     } else {
-      ++made.counts[std::min(static_cast<std::size_t>((x - lo) * scale), kBins - 1)];
+      ++made.counts[bin_of(x, {lo, hi}, kBins)];
     }
   }
   return made;
@@ -84,7 +91,7 @@ Histogram histogram(std::string name, std::string unit, const std::vector<double
   const auto whole = extent_of(numbers);
   if (!whole) return histogram(std::move(name), std::move(unit), numbers, 0.0, 0.0);
   Extent range = *whole;
-  if (std::isfinite(1.0 / (whole->hi - whole->lo))) {
+  if (std::isfinite(whole->hi - whole->lo) && whole->hi > whole->lo) {
     const Extent inner = without_tails(numbers, *whole);
     if (inner.hi - inner.lo < kWorthIt * (whole->hi - whole->lo)) range = inner;
   }

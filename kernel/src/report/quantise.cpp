@@ -89,7 +89,7 @@ void quantise_positions(const Cloud& cloud, View& view) {
     for (Index i = 0; i < positions.cols(); ++i)
       for (int axis = 0; axis < 3; ++axis)
         steps[at++] = static_cast<std::uint16_t>(
-            (static_cast<double>(positions(axis, i)) - view.lo[axis]) * scale[axis] + 0.5);
+            std::lround((static_cast<double>(positions(axis, i)) - view.lo[axis]) * scale[axis]));
   }
   view.positions = Bytes::of(steps);
 }
