@@ -4,6 +4,8 @@
 """live.py VELUM GRAPHS LIMITS: the live graph against two emulated scanners, within the limits that the
 simulated scans keep, and with as many lines.
 
+live.py VELUM GRAPHS --faults: what becomes of a recording when the scanner misbehaves.
+
 live.py VELUM GRAPHS --long: two scanners at 100 Hz and 1/6 degree, 30,000 revolutions each, recorded and
 replayed: no line lost, memory flat.
 """
@@ -137,7 +139,7 @@ def long(lines=30000):
         emulators = cpu(a.process.pid), cpu(b.process.pid)
     revolutions = lines / 100.0
     print(f"{2 * lines} telegrams in {record['seconds']:.1f} s; of a core at 100 Hz: recorders "
-          f"{50 * record['cpu_seconds'] / revolutions:.1f} % each, emulators "
+          f"{50 * record['cpu_seconds'] / revolutions:.2f} % each, emulators "
           f"{100 * emulators[0] / revolutions:.1f} and {100 * emulators[1] / revolutions:.1f} %")
     for node in "ab":
         for name, value in (("lines", lines), ("lost_lines", 0), ("malformed", 0),
@@ -153,7 +155,63 @@ def long(lines=30000):
             faults.append(f"memory of the {what} is not flat")
 
 
-if sys.argv[3] == "--long":
+FAULT = """
+format = 1
+[node.a]
+use = "devices.recorder"
+address = "ADDRESS"
+lines = 60
+give_up = "4 s"
+file = "a.vrec"
+"""
+
+
+def recording_of(fault, *options):
+    """Exit status, measures and warnings of a recording of 60 lines; the fault comes after 20."""
+    with tempfile.TemporaryDirectory() as work, Emulator("gennaker", "--fault", fault,
+                                                         *options) as emulator:
+        graph, out = pathlib.Path(work) / "g.toml", pathlib.Path(work) / "out"
+        graph.write_text(FAULT.replace("ADDRESS", emulator.address))
+        status = subprocess.run([velum, "run", graph, "--out", out], stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL, timeout=120).returncode
+        node = json.loads((out / "run.json").read_text())["nodes"][0]
+    return status, {name: m["value"] for name, m in node["measures"].items()}, node["warnings"]
+
+
+def expect(fault, *conditions, status=0, options=()):
+    found, measures, warnings = recording_of(fault, *options)
+    if found != status:
+        faults.append(f"{fault}: exit {found}, wanted {status}: {warnings}")
+        return
+    for name, least, most in conditions:
+        value = len(warnings) if name == "warnings" else measures[name]
+        if not least <= value <= most:
+            faults.append(f"{fault}: {name} is {value}, wanted {least} to {most}: {warnings}")
+
+
+def all_faults():
+    whole = (("lines", 60, 60), ("lost_lines", 0, 0), ("connections", 1, 1))
+    again = (("lines", 60, 60), ("connections", 2, 9), ("gaps", 1, 9), ("warnings", 1, 99))
+    expect("none", *whole, ("bad_checksums", 0, 0))
+    expect("split", *whole)
+    expect("drip", *whole)
+    expect("flood", *whole)
+    expect("garbage", *whole)
+    expect("refuse", *whole, ("warnings", 1, 99))
+    expect("gap", ("lines", 60, 60), ("lost_lines", 3, 9))
+    expect("checksum", ("lines", 60, 60), ("lost_lines", 3, 9), ("bad_checksums", 3, 9))
+    expect("length", ("lines", 60, 60), ("lost_lines", 3, 9))
+    expect("half", *again)
+    expect("reset", *again)
+    expect("power_cycle", *again)
+    expect("silence", *again)
+    expect("model", status=7)
+    expect("error", status=7, options=("--set", "fault_code=13"))
+
+
+if sys.argv[3] == "--faults":
+    all_faults()
+elif sys.argv[3] == "--long":
     long(*map(int, sys.argv[4:]))
 else:
     live(sys.argv[3])

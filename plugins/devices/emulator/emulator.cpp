@@ -183,8 +183,11 @@ velum::emulator::ServerOptions Emulator::options() const {
 }
 
 void Emulator::operator()(velum::Context& context) const {
+  context.check();
   const velum::scene::Scene seen = read();
-  const velum::emulator::View view(seen, named(seen, scanner), context.random());
+  // Several emulators beside each other have noise of their own, whatever the seed.
+  const velum::Random random = context.random().split(static_cast<std::uint64_t>(serial + port));
+  const velum::emulator::View view(seen, named(seen, scanner), random);
   const Mode turning = mode(view.scanner());
   velum::emulator::Server server(options(), device(turning), view, plate(view.scanner(), turning),
                                  context.random());

@@ -8,6 +8,8 @@ using velum::test::Stage;
 
 namespace {
 
+const std::string kBoards =
+    std::string(VELUM_SOURCE_DIR) + "/graphs/characterisation/scenes/boards.toml";
 const std::string kTunnel = std::string(VELUM_SOURCE_DIR) + "/graphs/scenes/wind_tunnel.toml";
 
 Stage emulator(const std::string& scanner = "gennaker") {
@@ -76,8 +78,10 @@ TEST_CASE("every fault has a name") {
 }
 
 TEST_CASE("devices.emulator keeps the promises of every stage") {
-  for (const auto& fault : velum::test::conformance(
-           "devices.emulator",
-           {{"scene", kTunnel}, {"scanner", "gennaker"}, {"port", "0"}, {"lifetime", "0.05 s"}}))
+  for (const auto& fault : velum::test::conformance("devices.emulator", {{"scene", kBoards},
+                                                                         {"scanner", "at_2m"},
+                                                                         {"frequency", "50"},
+                                                                         {"port", "0"},
+                                                                         {"lifetime", "0.05 s"}}))
     FAIL_CHECK(fault);
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kEvery = 10;
 constexpr int kFlood = 300;
-constexpr std::size_t kDrop = 64;
+constexpr std::size_t kDrop = 256;
 constexpr double kDripPause = 0.001;
 constexpr double kSplitPause = 0.002;
 
