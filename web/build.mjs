@@ -28,14 +28,22 @@ async function bundle(entry) {
 /** What would end or confuse an HTML script element; inside strings and regular expressions only. */
 const scriptSafe = (text) => text.replaceAll("<!--", "\\x3C!--").replaceAll(/<(\/?script)/gi, "\\x3C$1");
 
-const [page, script, style] = await Promise.all([
+/** The licences that must stand in every copy. */
+async function notices() {
+  const texts = await Promise.all(["three", "plotly.js-cartesian-dist-min"].map(async (name) =>
+    `${name}\n\n${(await readFile(join(here, "node_modules", name, "LICENSE"), "utf8")).trim()}`));
+  return `/*!\nThis page contains:\n\n${texts.join("\n\n")}\n*/\n`;
+}
+
+const [page, script, style, licences] = await Promise.all([
   readFile(join(here, "src", "page.html"), "utf8"),
   bundle("main.js"),
   bundle("style.css"),
+  notices(),
 ]);
 const html = page
   .replace("/* velum:style */", () => style.replaceAll("</style", "<\\/style"))
-  .replace("/* velum:script */", () => scriptSafe(script));
+  .replace("/* velum:script */", () => licences + scriptSafe(script));
 if (html.split("\n").filter((line) => line === "<!-- velum:data -->").length !== 1)
   throw new Error("the page must have exactly one line <!-- velum:data -->");
 
