@@ -52,6 +52,9 @@ function hslToRgb(hue, saturation, lightness) {
   });
 }
 
+/** Good, fair, bad of analysis.displacement; nothing for other numbers. */
+export const gradeColour = (grade) => ["009e73", "e69f00", "c8322d"].slice(grade, grade + 1).map(rgbOf)[0];
+
 export const css = ([r, g, b]) => `rgb(${r}, ${g}, ${b})`;
 export const categoryCss = (i) => css(category(i));
 

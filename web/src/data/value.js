@@ -126,5 +126,10 @@ function countLabels(raw, none) {
   return labels.map(([label, count]) => ({ label, count }));
 }
 
-export const labelName = (column, label) =>
-  label === null ? "none" : column.names?.[label] ?? String(label);
+const kGrades = ["good", "fair", "bad"];  // of analysis.displacement
+
+export function labelName(column, label) {
+  if (label === null) return "none";
+  const names = column.names ?? (column.name === "grade" ? kGrades : []);
+  return names[label] ?? String(label);
+}

@@ -6,6 +6,10 @@ import { bytes, integer, parameter, quantity, seconds } from "../format.js";
 
 export function nodesSection(run, stages) {
   const cards = run.nodes.map((node) => card(node, stages[node.use]));
+  window.addEventListener("hashchange", () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (target?.classList.contains("node-card")) target.open = true;
+  });
   const all = (open) => cards.forEach((one) => { one.open = open; });
   return [
     h("div", { class: "buttons" }, button("Open all", () => all(true)), button("Close all", () => all(false))),

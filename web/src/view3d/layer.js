@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // One value in the view: its geometry on the graphics card and how it is coloured.
 import * as THREE from "three";
-import { category, kNone, mapped, table } from "../colour.js";
+import { category, gradeColour, kNone, mapped, table } from "../colour.js";
 import { kHeight, kLabel, kNumber, kPlain, meshShader, pointShader } from "./shaders.js";
 
 const kNumberSteps = 65534;
@@ -162,7 +162,7 @@ export class Layer {
     const width = Math.min(labels.length, 4096);
     const bytes = new Uint8Array(width * 4);
     for (let i = 0; i < width; ++i)
-      bytes.set([...labelColour(labels, i), this.hidden.has(labels[i].label) ? 0 : 255], 4 * i);
+      bytes.set([...labelColour(this.column, labels, i), this.hidden.has(labels[i].label) ? 0 : 255], 4 * i);
     this.setTable(bytes, width, THREE.NearestFilter);
   }
 
@@ -218,8 +218,11 @@ export class Layer {
   }
 }
 
-/** The colour of the i-th of these labels: "none" is grey. */
-export const labelColour = (labels, i) => (labels[i].label === null ? kNone : category(i));
+/** The colour of the i-th of a column's labels: "none" is grey, grades are green to red. */
+export function labelColour(column, labels, i) {
+  if (labels[i].label === null) return kNone;
+  return (column.name === "grade" && gradeColour(labels[i].label)) || category(i);
+}
 
 /** 0 to count - 1 in an order of which each beginning is spread evenly, the same every time. */
 function shuffled(count) {

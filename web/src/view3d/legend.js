@@ -47,7 +47,7 @@ function labelLegend(layer, title, changed) {
       layer.toggleLabel(label, shown);
       changed();
     }, { "aria-label": `show ${layer.column.name} ${name}` });
-    entry.prepend(h("i", { style: { background: css(labelColour(labels, i)) } }));
+    entry.prepend(h("i", { style: { background: css(labelColour(layer.column, labels, i)) } }));
     return h("li", {}, entry, h("small", {}, integer(count)));
   });
   return h("figure", { class: "legend" },
