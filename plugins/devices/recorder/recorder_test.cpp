@@ -30,7 +30,7 @@ struct Folder {
 Stage recorder(const std::string& address, const std::string& file) {
   Stage stage("devices.recorder");
   stage.set("address", address).set("file", file).set("encoding", "cola_b");
-  stage.set("silence_timeout", "1 s").set("give_up", "8 s");
+  stage.set("silence_timeout", "5 s").set("give_up", "20 s");
   return stage;
 }
 
@@ -118,8 +118,7 @@ TEST_CASE("a device that is given up leaves what it sent") {
   };
   peer.start();
   try {
-    static_cast<void>(
-        recorder(peer.address(), folder.file("a.vrec")).set("give_up", "0.8 s").run());
+    static_cast<void>(recorder(peer.address(), folder.file("a.vrec")).set("give_up", "2 s").run());
     FAIL("recorded a scanner that is gone");
   } catch (const Error& error) {
     CHECK(error.fault() == Fault::device);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <thread>
 
@@ -40,8 +39,13 @@ std::optional<double> angle_in(std::string_view text) {
   return degrees * std::numbers::pi / 180.0;
 }
 
+// To the nanosecond, so that no two recordings begin the same.
 std::string wall_clock() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  const auto now = std::chrono::system_clock::now();
+  const auto nanoseconds = now.time_since_epoch() % std::chrono::seconds(1);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:09}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
+                     std::chrono::duration_cast<std::chrono::nanoseconds>(nanoseconds).count());
 }
 
 }  // namespace
@@ -255,12 +259,13 @@ void Acquisition::run(const RecordSink& sink, const std::function<bool()>& done)
       wait = kFirstWait;
       sink({Event::gap, since_start(SteadyClock::now()), why});
     }
-    if (idle() + wait > give_up)
+    const double left = give_up - idle();
+    if (left <= 0.0)
       throw Error(Fault::device,
                   fmt::format("{}; given up after {:g} s without a scan", why, give_up))
           .at(settings_.device.address);
     log_.warn(fmt::format("{}; connecting again", why));
-    wait_between(wait);
+    wait_between(std::min(wait, left));
     wait = std::min(2.0 * wait, kLongestWait);
   }
   sink({Event::end, since_start(SteadyClock::now()), "done"});

@@ -21,6 +21,14 @@ void add(ImportCounts& to, const ImportCounts& more) {
   to.ended = more.ended;
 }
 
+// The recording's start, which all its parts repeat; empty where there is none.
+std::string start_of(std::span<const std::byte> bytes, const std::string& name) {
+  VrecReader reader(bytes, name);
+  Record record;
+  const bool found = reader.next(record) && record.event == Event::start;
+  return found ? std::string(record.bytes) : "";
+}
+
 }  // namespace
 
 ImportCounts read_telegrams(std::span<const std::byte> bytes, const std::string& name,
@@ -66,16 +74,18 @@ ImportCounts read_records(const std::filesystem::path& path, const RecordSink& s
   const FileContent content(path);
   if (is_capture(content.bytes())) return read_capture(content.bytes(), path.string(), checked);
   if (!is_vrec(content.bytes())) return read_telegrams(content.bytes(), path.string(), checked);
-  ImportCounts counts;
-  bool first = true;
-  for (const auto& part : parts_of(path)) {
-    const FileContent more(part);
-    bool repeated = !first;
-    add(counts, read_vrec(more.bytes(), part.string(), [&](const Record& record) {
+  ImportCounts counts = read_vrec(content.bytes(), path.string(), checked);
+  const std::string start = start_of(content.bytes(), path.string());
+  const auto parts = parts_of(path);
+  for (auto part = parts.begin() + 1; part != parts.end(); ++part) {
+    const FileContent more(*part);
+    // A part with another start was left by a longer recording of the same name.
+    if (!is_vrec(more.bytes()) || start_of(more.bytes(), part->string()) != start) break;
+    bool repeated = true;
+    add(counts, read_vrec(more.bytes(), part->string(), [&](const Record& record) {
           if (!repeated) checked(record);
           if (record.event == Event::part) repeated = false;
         }));
-    first = false;
   }
   return counts;
 }

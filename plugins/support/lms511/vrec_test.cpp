@@ -134,6 +134,30 @@ TEST_CASE("parts of a given size make one recording, and each can be read alone"
   CHECK(second.counts().lines > 0);
 }
 
+TEST_CASE("parts that an earlier recording of the same name left do not count") {
+  const Folder folder;
+  const fs::path path = folder.path / "again.vrec";
+  {
+    VrecWriter writer(path, {.rotate = 8192, .block_size = 4096});
+    lms::RoomScan().play([&](const Record& record) { writer.add(record); });
+    REQUIRE(writer.parts().size() > 1);
+  }
+  {
+    VrecWriter writer(path, {});
+    writer.add({Event::start, 0, "2026-01-02T00:00:00Z"});
+    writer.add({Event::ascii_telegram, 5, "sAN Run 1"});
+    writer.add({Event::end, 6, "done"});
+    writer.close();
+  }
+  REQUIRE(fs::exists(folder.path / "again.0001.vrec"));
+  lms::QuietContext context;
+  std::size_t records = 0;
+  const ImportCounts counts = read_records(
+      path, [&](const Record&) { ++records; }, context);
+  CHECK(records == 3);
+  CHECK(counts.ended);
+}
+
 TEST_CASE("a disk that is full is reported, and what was written stays") {
   const Folder folder;
   const fs::path path = folder.path / "full.vrec";
