@@ -53,6 +53,22 @@ class FailTest(CommandTest):
             self.assertIn("no format is known for 'a.plx', expected .pcd, .ply", error)
         self.assertFalse((self.folder / "g.out").exists())
 
+    def test_a_name_that_a_scene_does_not_have(self):
+        self.write("inner/s.toml", 'format = 1\n[object.floor]\nshape = "plane"\n'
+                   'position = [0, 0, 0]\nnormal = [0, 0, 1]\nsize = [1, 1]\n')
+        self.write("inner/g.toml", 'format = 1\n[node.s]\nuse = "devices.truth"\n'
+                   'scene = "s.toml"\nobject = "flor"\n')
+        _, error = self.velum("check", "inner/g.toml", status=2)
+        self.assertRegex(error, r"error\[E0211\] inner/g.toml:5:1 .*no object 'flor'")
+        self.assertIn("known: floor", error)
+
+    def test_seeds(self):
+        self.write("g.toml", CHAIN)
+        for seed in ("-1", "1.5", "9223372036854775808"):
+            _, error = self.velum("run", "g.toml", "--seed", seed, status=2)
+            self.assertIn("whole number", error)
+        self.velum("run", "g.toml", "--seed", "9223372036854775807")
+
     def test_bad_data(self):
         self.write("points.txt", "many\n")
         self.write("g.toml", '[node.scan]\nuse = "test.read"\nfile = "points.txt"\n')

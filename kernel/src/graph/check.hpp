@@ -22,6 +22,7 @@ struct Checked {
   Node node;                                   ///< info is null when the stage is not known
   std::vector<const Key*> given;               ///< one a parameter; null: the default
   std::vector<std::vector<PlacedWire>> wires;  ///< one an input
+  bool all_read = false;  ///< every parameter that the stage has is right by itself
 };
 
 /// The state of a check, handed from one step to the next. A step that finds a mistake reports it
@@ -53,6 +54,8 @@ void check_settings(Check& check);
 void check_wires(Check& check);
 /// Files to read and to write.
 void check_files(Check& check);
+/// What the stages themselves say of parameters that are right one by one; files have their paths.
+void check_together(Check& check);
 /// The indices of the nodes, each after those it takes from, by name where free. Cycles are
 /// reported, and what is behind one is left out.
 [[nodiscard]] std::vector<std::size_t> check_order(Check& check);

@@ -82,7 +82,7 @@ void complete(const Check& check, Checked& checked, const Draft& draft) {
 }
 
 /// What the stage itself says of settings that are right one by one.
-void check_together(const Check& check, const Checked& checked, const Draft& draft) {
+void ask_stage(const Check& check, const Checked& checked, const Draft& draft) {
   const StageInfo& info = *checked.node.info;
   if (!info.check) return;
   const auto report = [&](const Error& error) {
@@ -114,11 +114,16 @@ void check_settings(Check& check) {
     const std::size_t mistakes = check.diagnostics.size();
     read_settings(check, checked, draft);
     complete(check, checked, draft);
-    const bool all_read = std::all_of(
+    checked.all_read = std::all_of(
         check.diagnostics.begin() + static_cast<std::ptrdiff_t>(mistakes), check.diagnostics.end(),
         [](const Diagnostic& one) { return one.code == kUnknownParameter; });
-    if (all_read) check_together(check, checked, draft);
   }
+}
+
+void check_together(Check& check) {
+  for (std::size_t n = 0; n < check.nodes.size(); ++n)
+    if (check.nodes[n].node.info != nullptr && check.nodes[n].all_read)
+      ask_stage(check, check.nodes[n], check.document.drafts[n]);
 }
 
 }  // namespace velum::graph

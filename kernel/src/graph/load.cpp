@@ -63,6 +63,7 @@ Loaded load_text(std::string text, const fs::path& path, const std::vector<std::
   check_settings(check);
   check_wires(check);
   check_files(check);
+  check_together(check);
   const std::vector<std::size_t> order = check_order(check);
   check_needs(check, order);
   std::optional<Study> study = read_study(check);

@@ -62,6 +62,7 @@ struct Simulator {
   }
 
   void check() const {
+    velum::scene::require_scanner(scene.path, scanner, "scanner");
     try {
       if (errors) static_cast<void>(velum::scene::Effects::named(*errors));
     } catch (velum::Error& error) {

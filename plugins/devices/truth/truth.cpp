@@ -91,6 +91,9 @@ struct Truth {
     if (object.has_value() == scanner.has_value())
       throw velum::Error(velum::Fault::graph, "either 'object' or 'scanner' must be given")
           .at("scanner");
+    if (object) velum::scene::require_object(scene.path, *object, "object");
+    if (scanner) velum::scene::require_scanner(scene.path, *scanner, "scanner");
+    if (frame) velum::scene::require_scanner(scene.path, *frame, "frame");
     if (heights.empty())
       throw velum::Error(velum::Fault::graph, "'heights' is empty").at("heights");
   }

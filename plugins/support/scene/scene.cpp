@@ -26,6 +26,35 @@ const Sail* Object::sail() const {
   return shapes.size() == 1 ? std::get_if<Sail>(&shapes.front()) : nullptr;
 }
 
+namespace {
+
+template <class Ask>
+void require_name(const std::filesystem::path& scene, const char* parameter, const Ask& ask) {
+  std::optional<Scene> read;
+  try {
+    read = read_scene(scene);
+  } catch (const Error&) {
+    return;
+  }
+  try {
+    ask(*read);
+  } catch (Error& error) {
+    throw std::move(error).at(parameter);
+  }
+}
+
+}  // namespace
+
+void require_scanner(const std::filesystem::path& scene, std::string_view name,
+                     const char* parameter) {
+  require_name(scene, parameter, [&](const Scene& read) { static_cast<void>(read.scanner(name)); });
+}
+
+void require_object(const std::filesystem::path& scene, std::string_view name,
+                    const char* parameter) {
+  require_name(scene, parameter, [&](const Scene& read) { static_cast<void>(read.object(name)); });
+}
+
 const Object& Scene::object(std::string_view name) const {
   return named(objects, name, "object", path);
 }

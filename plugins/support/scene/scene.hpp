@@ -102,6 +102,14 @@ struct Scene {
 /// The same from text; `path` is what messages call it and where the scene's own files are found.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::filesystem::path& path);
 
+/// For a stage's check(): does the scene have a scanner, or an object, of that name? Throws Error
+/// (Fault::graph) at `parameter` when it does not. A scene that cannot be read is left to the run,
+/// which says why.
+void require_scanner(const std::filesystem::path& scene, std::string_view name,
+                     const char* parameter);
+void require_object(const std::filesystem::path& scene, std::string_view name,
+                    const char* parameter);
+
 /// Triangles on the object's surface, nowhere farther than `error` [m] from it. Throws Error for an
 /// infinite plane.
 [[nodiscard]] TriangleSet triangulate(const Object& object, double error);
