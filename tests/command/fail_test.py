@@ -54,7 +54,7 @@ class FailTest(CommandTest):
         self.assertFalse((self.folder / "g.out").exists())
 
     def test_a_name_that_a_scene_does_not_have(self):
-        self.write("inner/s.toml", 'format = 1\n[object.floor]\nshape = "plane"\n'
+        self.write("inner/s.toml", 'format = 1\nunits = "m"\n[object.floor]\nshape = "plane"\nlabel = 1\n'
                    'position = [0, 0, 0]\nnormal = [0, 0, 1]\nsize = [1, 1]\n')
         self.write("inner/g.toml", 'format = 1\n[node.s]\nuse = "devices.truth"\n'
                    'scene = "s.toml"\nobject = "flor"\n')
