@@ -18,7 +18,7 @@ struct ReadMesh {
   Handedness handedness = Handedness::right;
 
   static auto about() {
-    velum::About<ReadMesh> about("Reads a triangle mesh: PLY, STL, OBJ, OFF or legacy VTK");
+    velum::About<ReadMesh> about("Reads a triangle mesh: PLY, STL, OBJ, OFF, legacy VTK or GLB");
     about.out("mesh", "the file's polygons as triangles, with its vertices' columns")
         .param(&ReadMesh::file, "file", "the file; its content decides what it is")
         .required()

@@ -51,6 +51,16 @@ TEST_CASE("the content decides, not the name") {
   CHECK(stage(put(folder, "a.ply", kSquare)).run().mesh().size() == 2);
 }
 
+TEST_CASE("a GLB file is in metres and right-handed, and says so when asked otherwise") {
+  const Folder folder;
+  const auto file = folder / "a.glb";
+  velum::test::Stage write = velum::formats::test::stage_on("io.write_mesh", file);
+  const auto mesh = stage(put(folder, "a.obj", kSquare)).run().mesh();
+  write.run(mesh);
+  CHECK(stage(file).set("units", "mm").run().mesh().positions() == mesh.positions());
+  CHECK(fault_of(stage(file).set("handedness", "left")) == Fault::graph);
+}
+
 TEST_CASE("polygons without an area's worth of corners are left out with a warning") {
   const Folder folder;
   const auto outcome = stage(put(folder, "a.obj", kSquare + "f 1 2\n")).run();

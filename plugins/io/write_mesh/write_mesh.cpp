@@ -16,7 +16,7 @@ struct WriteMesh {
   MeshFormat format = MeshFormat::automatic;
 
   static auto about() {
-    velum::About<WriteMesh> about("Writes a triangle mesh: PLY, STL, OBJ, OFF or legacy VTK");
+    velum::About<WriteMesh> about("Writes a triangle mesh: PLY, STL, OBJ, OFF, legacy VTK or GLB");
     about.in("mesh", "what to write")
         .param(&WriteMesh::file, "file", "the file to write")
         .required()
@@ -30,7 +30,8 @@ struct WriteMesh {
                  {"obj", MeshFormat::obj, "OBJ, with normals and colours"},
                  {"off", MeshFormat::off, "OFF; no columns"},
                  {"vtk", MeshFormat::vtk, "legacy VTK, binary, with all columns"},
-                 {"vtk_ascii", MeshFormat::vtk_ascii, "legacy VTK, text, with all columns"}});
+                 {"vtk_ascii", MeshFormat::vtk_ascii, "legacy VTK, text, with all columns"},
+                 {"glb", MeshFormat::glb, "binary glTF 2.0, always in metres; normals, colours"}});
     return about;
   }
 

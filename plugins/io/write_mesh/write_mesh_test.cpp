@@ -18,8 +18,8 @@ Stage stage(const std::filesystem::path& file) {
   return velum::formats::test::stage_on("io.write_mesh", file);
 }
 
-constexpr const char* kFormats[] = {"ply", "ply_ascii", "stl", "stl_ascii",
-                                    "obj", "off",       "vtk", "vtk_ascii"};
+constexpr const char* kFormats[] = {"ply", "ply_ascii", "stl",       "stl_ascii", "obj",
+                                    "off", "vtk",       "vtk_ascii", "glb"};
 
 }  // namespace
 
@@ -37,7 +37,7 @@ TEST_CASE("every format is written and read back") {
 
 TEST_CASE("the extension chooses the format") {
   const Folder folder;
-  for (const char* name : {"a.ply", "a.stl", "a.obj", "a.off", "a.vtk"}) {
+  for (const char* name : {"a.ply", "a.stl", "a.obj", "a.off", "a.vtk", "a.glb"}) {
     INFO(name);
     stage(folder / name).run(full_mesh(10));
     CHECK(read_mesh_file(folder / name).size() == 8);
@@ -49,6 +49,12 @@ TEST_CASE("coordinates are in the unit asked for") {
   const Folder folder;
   stage(folder / "a.stl").set("units", "mm").run(full_mesh(10));
   CHECK(read_mesh_file(folder / "a.stl").positions().isApprox(full_mesh(10).positions() * 1000.0F));
+}
+
+TEST_CASE("GLB is in metres, whatever the unit") {
+  const Folder folder;
+  stage(folder / "a.glb").set("units", "mm").run(full_mesh(10));
+  CHECK(read_mesh_file(folder / "a.glb").positions() == full_mesh(10).positions());
 }
 
 TEST_CASE("large coordinates in STL are warned about") {

@@ -3,6 +3,7 @@
 #include "formats/cloud_io.hpp"
 
 #include "formats/detect.hpp"
+#include "formats/glb.hpp"
 #include "formats/las.hpp"
 #include "formats/obj.hpp"
 #include "formats/off.hpp"
@@ -44,6 +45,8 @@ Cloud read_cloud(Source& source, const ReadOptions& options, Context& context) {
       return vertices_of(read_off(source, options, context), context);
     case Format::obj:
       return vertices_of(read_obj(source, options, context), context);
+    case Format::glb:
+      return vertices_of(read_glb(source, options, context), context);
     case Format::stl:
       break;
   }

@@ -17,7 +17,6 @@ struct Known {
 };
 /// Files that are something else, by how they begin.
 constexpr Known kOthers[] = {{"ASTM-E57", "an E57 file"},
-                             {"glTF", "a glTF file"},
                              {"\x1f\x8b", "a gzip file"},
                              {"PK\x03\x04", "a zip file"},
                              {"\x89PNG", "a PNG image"},
@@ -82,6 +81,7 @@ std::optional<Format> by_content(const Source& source) {
   const std::string_view text = source.text();
   const std::string_view line = first_line(text.substr(0, std::size_t{1} << 16U));
   if (trimmed(text.substr(0, text.find('\n'))) == "ply") return Format::ply;
+  if (text.starts_with("glTF")) return Format::glb;
   if (text.starts_with("LASF")) return Format::las;
   if (text.starts_with("# vtk DataFile")) return Format::vtk;
   if (text.starts_with("# .PCD") || is_pcd(line)) return Format::pcd;
@@ -96,7 +96,8 @@ std::optional<Format> by_content(const Source& source) {
 }  // namespace
 
 std::string_view name_of(Format format) {
-  constexpr std::string_view kNames[] = {"PCD", "PLY", "LAS", "VTK", "OFF", "OBJ", "STL", "text"};
+  constexpr std::string_view kNames[] = {"PCD", "PLY", "LAS", "VTK", "OFF",
+                                         "OBJ", "STL", "GLB", "text"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -104,10 +105,10 @@ std::optional<Format> format_of_extension(std::string_view extension) {
   constexpr std::pair<std::string_view, Format> kExtensions[] = {
       {".pcd", Format::pcd},  {".ply", Format::ply},  {".las", Format::las},
       {".laz", Format::las},  {".vtk", Format::vtk},  {".off", Format::off},
-      {".obj", Format::obj},  {".stl", Format::stl},  {".xyz", Format::text},
-      {".txt", Format::text}, {".csv", Format::text}, {".tsv", Format::text},
-      {".tab", Format::text}, {".asc", Format::text}, {".pts", Format::text},
-      {".3d", Format::text},  {".dat", Format::text}};
+      {".obj", Format::obj},  {".stl", Format::stl},  {".glb", Format::glb},
+      {".xyz", Format::text}, {".txt", Format::text}, {".csv", Format::text},
+      {".tsv", Format::text}, {".tab", Format::text}, {".asc", Format::text},
+      {".pts", Format::text}, {".3d", Format::text},  {".dat", Format::text}};
   for (const auto& [known, format] : kExtensions)
     if (known == extension) return format;
   return std::nullopt;
@@ -120,7 +121,7 @@ Format detect(const Source& source) {
       throw Error(Fault::input,
                   "this is " + std::string(other.name) +
                       ", expected a point cloud or mesh (pcd, ply, las, vtk, xyz, txt, "
-                      "csv, stl, obj, off)")
+                      "csv, stl, obj, off, glb)")
           .at(source.name());
   const auto promised = format_of_extension(source.extension());
   // These formats always begin in the way that was looked for.

@@ -8,7 +8,7 @@
 
 namespace velum::formats {
 
-enum class Format { pcd, ply, las, vtk, off, obj, stl, text };
+enum class Format { pcd, ply, las, vtk, off, obj, stl, glb, text };
 std::string_view name_of(Format format);
 
 /// What a file is, by its content first and its extension second. Throws Error (Fault::input) when

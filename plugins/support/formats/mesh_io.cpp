@@ -3,6 +3,7 @@
 #include "formats/mesh_io.hpp"
 
 #include "formats/detect.hpp"
+#include "formats/glb.hpp"
 #include "formats/obj.hpp"
 #include "formats/off.hpp"
 #include "formats/ply.hpp"
@@ -24,11 +25,13 @@ Mesh read_known(Source& source, Format format, const ReadOptions& options, Conte
       return read_obj(source, options, context);
     case Format::stl:
       return read_stl(source, options, context);
+    case Format::glb:
+      return read_glb(source, options, context);
     default:
       break;
   }
   throw Error(Fault::input, "a " + std::string(name_of(format)) +
-                                " file has no mesh, expected ply, stl, obj, off or vtk")
+                                " file has no mesh, expected ply, stl, obj, off, vtk or glb")
       .at(source.name())
       .hint("io.read_cloud reads its points");
 }
@@ -47,15 +50,13 @@ Mesh read_mesh(Source& source, const ReadOptions& options, Context& context) {
 MeshFormat chosen(const std::filesystem::path& path, MeshFormat format) {
   if (format != MeshFormat::automatic) return format;
   const std::string extension = lower(path.extension().string());
-  constexpr std::pair<std::string_view, MeshFormat> kFormats[] = {{".ply", MeshFormat::ply},
-                                                                  {".stl", MeshFormat::stl},
-                                                                  {".obj", MeshFormat::obj},
-                                                                  {".off", MeshFormat::off},
-                                                                  {".vtk", MeshFormat::vtk}};
+  constexpr std::pair<std::string_view, MeshFormat> kFormats[] = {
+      {".ply", MeshFormat::ply}, {".stl", MeshFormat::stl}, {".obj", MeshFormat::obj},
+      {".off", MeshFormat::off}, {".vtk", MeshFormat::vtk}, {".glb", MeshFormat::glb}};
   for (const auto& [known, by_extension] : kFormats)
     if (known == extension) return by_extension;
   throw Error(Fault::graph, "no format is known for " + quote(path.filename().string()) +
-                                ", expected .ply, .stl, .obj, .off or .vtk")
+                                ", expected .ply, .stl, .obj, .off, .vtk or .glb")
       .at("file")
       .hint("name the format by format = \"...\"");
 }
@@ -88,6 +89,9 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, MeshFormat 
       break;
     case MeshFormat::vtk_ascii:
       write_vtk(file, mesh, true, unit, context);
+      break;
+    case MeshFormat::glb:
+      write_glb(file, mesh, context);
       break;
   }
   file.commit();

@@ -24,7 +24,7 @@ void write(const std::filesystem::path& path, const Mesh& mesh,
 
 constexpr MeshFormat kFormats[] = {MeshFormat::ply,       MeshFormat::ply_ascii, MeshFormat::stl,
                                    MeshFormat::stl_ascii, MeshFormat::obj,       MeshFormat::off,
-                                   MeshFormat::vtk,       MeshFormat::vtk_ascii};
+                                   MeshFormat::vtk,       MeshFormat::vtk_ascii, MeshFormat::glb};
 
 const std::string kBox = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
