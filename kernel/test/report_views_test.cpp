@@ -186,6 +186,21 @@ TEST_CASE("long tables are thinned, and numbers that are none are null") {
   CHECK(view.rows.at("rows").back().at(0).get<double>() > 11990.0);
 }
 
+TEST_CASE("many tables are thinned together, the longest first") {
+  std::vector<View> views;
+  for (const int rows : {4000, 10, 1000}) {
+    Table table({{"x", "m"}, {"y", "m"}});
+    for (int i = 0; i < rows; ++i) table.add({static_cast<double>(i), 0.0});
+    views.push_back(view_of(table, "t" + std::to_string(rows)));
+  }
+  report::limit_tables(views, 3000);
+  CHECK(views[0].shown == 500);
+  CHECK(views[0].count == 4000);
+  CHECK(views[0].rows.at("rows").at(1).at(0) == 8.0);
+  CHECK(views[1].shown == 10);
+  CHECK(views[2].shown == 500);
+}
+
 TEST_CASE("a cloud is thinned evenly, a mesh by merging its vertices") {
   const auto half = report::thinner(view_of(Cloud(scattered(1000, 1.0F)), "a"));
   REQUIRE(half);

@@ -14,6 +14,8 @@ namespace {
 
 /// Of arrays that are shown even when page and record alone are too large.
 constexpr std::uint64_t kLeast = 1'000'000;
+/// Of all tables together: some 4 MB of JSON.
+constexpr std::size_t kMostCells = 200'000;
 
 std::uint64_t base64_size(std::uint64_t bytes) {
   return (bytes + 2) / 3 * 4;
@@ -35,7 +37,9 @@ run::Json describe_stages(const std::set<std::string>& ids, plugins::Registry& r
 Packed pack_within(Views views, const Page& page, const run::Json& json) {
   const std::uint64_t fixed = page.size() + script_json(json).size();
   while (true) {
-    Packed packed = pack(views.all());
+    std::vector<View> shown = views.all();
+    limit_tables(shown, kMostCells);
+    Packed packed = pack(shown);
     const std::uint64_t said =
         script_json(packed.values).size() + script_json(packed.histograms).size();
     const std::uint64_t room = kMostBytes - std::min(kMostBytes, fixed + said);

@@ -37,7 +37,7 @@ VectorXd basis(const VectorXd& knots, int degree, double x) {
 }
 
 bool sound(const VectorXd& knots, int degree) {
-  return degree >= 1 && knots.size() >= 2 * (degree + 1) && knots.allFinite() &&
+  return degree >= 1 && knots.size() >= Index{2} * (degree + 1) && knots.allFinite() &&
          std::is_sorted(knots.begin(), knots.end()) &&
          knots[degree] < knots[knots.size() - degree - 1];
 }
@@ -75,8 +75,9 @@ class Sampler {
   static int number(int i, int j) { return i * (kSteps + 1) + j; }
 
   [[nodiscard]] Vector2d place(int number) const {
-    const Vector2d share(static_cast<double>(number / (kSteps + 1)) / kSteps,
-                         static_cast<double>(number % (kSteps + 1)) / kSteps);
+    const int row = number / (kSteps + 1);
+    const int column = number % (kSteps + 1);
+    const Vector2d share(static_cast<double>(row) / kSteps, static_cast<double>(column) / kSteps);
     return low_ + share.cwiseProduct(high_ - low_);
   }
 

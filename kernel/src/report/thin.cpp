@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-// Views with fewer points: every second one of a cloud, vertices merged on a grid for a mesh.
+// Views with fewer points: every second one of a cloud, vertices merged on a grid for a mesh. And
+// tables with fewer rows.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +9,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "report/view.hpp"
+#include "report/views.hpp"
 
 namespace velum::report {
 namespace {
@@ -79,6 +80,18 @@ std::vector<std::uint32_t> triangles_of(const View& view, const std::vector<std:
   return made;
 }
 
+std::size_t rows_of(const View& view) {
+  return view.rows.is_null() ? 0 : view.rows.at("rows").size();
+}
+
+void halve_rows(View& view) {
+  run::Json kept = run::Json::array();
+  run::Json& rows = view.rows.at("rows");
+  for (std::size_t i = 0; i < rows.size(); i += 2) kept.push_back(std::move(rows[i]));
+  rows = std::move(kept);
+  if (view.type == ValueType::table) view.shown = rows.size();
+}
+
 std::optional<View> thinner_mesh(const View& view) {
   const double side = (view.hi - view.lo).maxCoeff();
   if (!(side > 0.0)) return std::nullopt;
@@ -104,6 +117,20 @@ std::optional<View> thinner(const View& view) {
   for (std::uint64_t i = 0; i < view.shown; i += 2)
     indices.push_back(static_cast<std::uint32_t>(i));
   return select(view, indices);
+}
+
+void limit_tables(std::vector<View>& views, std::size_t cells) {
+  const auto total = [&] {
+    std::size_t sum = 0;
+    for (const View& view : views)
+      if (rows_of(view) > 0) sum += rows_of(view) * view.rows.at("columns").size();
+    return sum;
+  };
+  while (total() > cells) {
+    View& longest = *std::ranges::max_element(views, {}, rows_of);
+    if (rows_of(longest) < 2) return;
+    halve_rows(longest);
+  }
 }
 
 }  // namespace velum::report

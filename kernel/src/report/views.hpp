@@ -33,6 +33,9 @@ class Views {
   std::vector<View> views_;  ///< by order and id
 };
 
+/// Halves the longest tables until all of them together have so many cells.
+void limit_tables(std::vector<View>& views, std::size_t cells);
+
 /// Views as the page reads them: `values` and `histograms` for its JSON, and the arrays, each at a
 /// multiple of 4 bytes.
 struct Packed {
