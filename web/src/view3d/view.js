@@ -12,6 +12,7 @@ import { bindKeys } from "./keys.js";
 import { Marks } from "./marks.js";
 import { pick } from "./pick.js";
 
+const kManyPoints = 150000;
 const kStill = 4;  // pixels: a pointer that moves less has clicked
 
 export class View {
@@ -164,8 +165,15 @@ export class View {
       layer.uniforms.size.value = layer.size * ratio;
       layer.setShare(share);
     }
-    this.dome.render(this.scene, this.camera, ratio, smooth);
+    this.dome.render(this.scene, this.camera, ratio, smooth && this.#worthSmoothing());
     this.marks.place(this.camera, width, height);
+  }
+
+  /** Smooth edges are seen on meshes and lines; in large clouds they cost much and show little. */
+  #worthSmoothing() {
+    const shown = this.layers.filter((layer) => layer.visible);
+    const points = shown.reduce((sum, layer) => sum + (layer.value.isMesh() ? 0 : layer.value.shown), 0);
+    return points < kManyPoints;
   }
 
   /** Picks at pixel (x, y) of the view and tells the listeners. Returns what they were told. */
