@@ -26,12 +26,17 @@ async function bundle(entry) {
 }
 
 /** What would end or confuse an HTML script element; inside strings and regular expressions only. */
-const scriptSafe = (text) => text.replaceAll("<!--", "\\x3C!--").replaceAll(/<(\/?script)/gi, "\\x3C$1");
+const scriptSafe = (text) =>
+  text.replaceAll("<!--", "\\x3C!--").replaceAll(/<(\/?script)/gi, "\\x3C$1");
 
 /** The licences that must stand in every copy. */
 async function notices() {
-  const texts = await Promise.all(["three", "plotly.js-cartesian-dist-min"].map(async (name) =>
-    `${name}\n\n${(await readFile(join(here, "node_modules", name, "LICENSE"), "utf8")).trim()}`));
+  const texts = await Promise.all(
+    ["three", "plotly.js-cartesian-dist-min"].map(
+      async (name) =>
+        `${name}\n\n${(await readFile(join(here, "node_modules", name, "LICENSE"), "utf8")).trim()}`,
+    ),
+  );
   return `/*!\nThis page contains:\n\n${texts.join("\n\n")}\n*/\n`;
 }
 

@@ -11,15 +11,19 @@ function fill(element, attributes, children) {
     else if (name === "value") element.value = value;
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false));
+  element.append(
+    ...children.flat(3).filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return element;
 }
 
 /** An HTML element: attributes, listeners as `onclick`, children as text or elements; null is left out. */
-export const h = (tag, attributes, ...children) => fill(document.createElement(tag), attributes, children);
+export const h = (tag, attributes, ...children) =>
+  fill(document.createElement(tag), attributes, children);
 
 /** The same for SVG. */
-export const s = (tag, attributes, ...children) => fill(document.createElementNS(kSvg, tag), attributes, children);
+export const s = (tag, attributes, ...children) =>
+  fill(document.createElementNS(kSvg, tag), attributes, children);
 
 let ids = 0;
 /** A new id, to tie a label or a description to its element. */
@@ -28,7 +32,11 @@ export const newId = (stem) => `${stem}-${++ids}`;
 /** A select with its label. `options` are [value, text] or [value, text, group]. */
 export function choice(label, options, value, onChange, attributes = {}) {
   const groups = new Map();
-  const select = h("select", { "aria-label": label, ...attributes, onchange: (event) => onChange(event.target.value) });
+  const select = h("select", {
+    "aria-label": label,
+    ...attributes,
+    onchange: (event) => onChange(event.target.value),
+  });
   for (const [key, text, group] of options) {
     const option = h("option", { value: key, selected: key === value }, text);
     if (!group) select.append(option);
@@ -45,11 +53,17 @@ export function choice(label, options, value, onChange, attributes = {}) {
 
 /** A check box with its label. */
 export function tick(label, checked, onChange, attributes = {}) {
-  const box = h("input", { type: "checkbox", checked, ...attributes, onchange: (event) => onChange(event.target.checked) });
+  const box = h("input", {
+    type: "checkbox",
+    checked,
+    ...attributes,
+    onchange: (event) => onChange(event.target.checked),
+  });
   return h("label", { class: "tick" }, box, h("span", {}, label));
 }
 
-export const button = (text, onclick, attributes = {}) => h("button", { type: "button", ...attributes, onclick }, text);
+export const button = (text, onclick, attributes = {}) =>
+  h("button", { type: "button", ...attributes, onclick }, text);
 
 /** Copies text; where the browser refuses, selects it in a text field. Says which. */
 export async function copyText(text) {
@@ -68,11 +82,17 @@ export async function copyText(text) {
 
 /** A button that copies what `text()` gives and says so for a moment. */
 export function copyButton(label, text, attributes = {}) {
-  const self = button(label, async () => {
-    const done = await copyText(text());
-    self.textContent = done ? "Copied" : "Could not copy";
-    setTimeout(() => { self.textContent = label; }, 1500);
-  }, attributes);
+  const self = button(
+    label,
+    async () => {
+      const done = await copyText(text());
+      self.textContent = done ? "Copied" : "Could not copy";
+      setTimeout(() => {
+        self.textContent = label;
+      }, 1500);
+    },
+    attributes,
+  );
   return self;
 }
 

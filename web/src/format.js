@@ -19,12 +19,20 @@ export function number(value, digits = 4) {
     text = grouped(String(value));
   } else {
     const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
-    text = grouped(value.toFixed(Math.min(decimals, 12)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, ""));
+    text = grouped(
+      value
+        .toFixed(Math.min(decimals, 12))
+        .replace(/(\.\d*?)0+$/, "$1")
+        .replace(/\.$/, ""),
+    );
   }
   return text.replace("-", kMinus);
 }
 
-const superscript = (n) => String(n).replace(/[-\d]/g, (c) => (c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c]));
+const superscript = (n) =>
+  String(n).replace(/[-\d]/g, (c) =>
+    c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c],
+  );
 
 function grouped(text) {
   const [whole, fraction] = text.split(".");
@@ -36,7 +44,8 @@ function grouped(text) {
 export const integer = (value) => grouped(String(Math.round(value)));
 
 /** The unit as printed: "m^2" becomes m², "deg" the degree sign. */
-export const unitText = (unit) => (unit ?? "").replace("^2", "\u00b2").replace("^3", "\u00b3").replace(/^deg$/, "\u00b0");
+export const unitText = (unit) =>
+  (unit ?? "").replace("^2", "\u00b2").replace("^3", "\u00b3").replace(/^deg$/, "\u00b0");
 
 /** How to show values of this size in this unit: displayed = factor * value, in `unit`. */
 export function scaleFor(unit, size) {
@@ -45,7 +54,10 @@ export function scaleFor(unit, size) {
     if (big > 0 && big < 0.5) return { factor: 1e3, unit: "mm" };
     return { factor: 1, unit: "m" };
   }
-  if (unit === "m^2") return big > 0 && big < 1e-2 ? { factor: 1e6, unit: "mm\u00b2" } : { factor: 1, unit: "m\u00b2" };
+  if (unit === "m^2")
+    return big > 0 && big < 1e-2
+      ? { factor: 1e6, unit: "mm\u00b2" }
+      : { factor: 1, unit: "m\u00b2" };
   if (unit === "rad") return { factor: 180 / Math.PI, unit: "\u00b0" };
   if (unit === "s") {
     if (big > 0 && big < 0.1) return { factor: 1e3, unit: "ms" };
@@ -65,7 +77,8 @@ export function quantity(value, unit, digits = 4) {
   return withUnit(number(value * scale.factor, digits), scale.unit);
 }
 
-export const withUnit = (text, unit) => (unit ? (unit === "\u00b0" ? `${text}\u00b0` : `${text}\u00a0${unit}`) : text);
+export const withUnit = (text, unit) =>
+  unit ? (unit === "\u00b0" ? `${text}\u00b0` : `${text}\u00a0${unit}`) : text;
 
 export const seconds = (value) => quantity(value, "s", 3);
 export const bytes = (value) => quantity(value, "bytes", 3);
@@ -79,8 +92,12 @@ export const moment = (iso) => (iso ?? "").replace("T", " ").replace("Z", " UTC"
 /** A parameter's value as the record has it. */
 export function parameter(value, unit) {
   if (value === null || value === undefined) return "not set";
-  if (Array.isArray(value)) return value.length === 0 ? "none" : value.map((one) => parameter(one, unit)).join(", ");
-  if (typeof value === "object") return Object.entries(value).map(([key, one]) => `${key}: ${parameter(one, unit)}`).join(", ");
+  if (Array.isArray(value))
+    return value.length === 0 ? "none" : value.map((one) => parameter(one, unit)).join(", ");
+  if (typeof value === "object")
+    return Object.entries(value)
+      .map(([key, one]) => `${key}: ${parameter(one, unit)}`)
+      .join(", ");
   if (typeof value === "number") return quantity(value, unit, 6);
   return String(value);
 }

@@ -11,13 +11,25 @@ function start() {
   try {
     const report = readReport();
     if (!report) {
-      page.replaceChildren(h("p", { class: "empty" }, "This is the bare template of a report: `velum report DIR` writes one with data."));
+      page.replaceChildren(
+        h(
+          "p",
+          { class: "empty" },
+          "This is the bare template of a report: `velum report DIR` writes one with data.",
+        ),
+      );
       return;
     }
     page.replaceChildren(...(report.kind === "study" ? studyPage(report) : runPage(report)));
     bindPrint();
   } catch (error) {
-    page.replaceChildren(h("p", { class: "banner failed", role: "alert" }, `This report could not be read: ${error.message}`));
+    page.replaceChildren(
+      h(
+        "p",
+        { class: "banner failed", role: "alert" },
+        `This report could not be read: ${error.message}`,
+      ),
+    );
     throw error;
   }
   document.documentElement.dataset.ready = "yes";

@@ -11,9 +11,15 @@ import { Browser, drawn, quiet } from "./browser.mjs";
 import { sailGrid } from "./shapes.mjs";
 
 const command = process.env.VELUM_COMMAND ?? "";
-const stages = ["io/read_cloud", "filtering/remove_points", "meshing/delaunay_projected", "analysis/mesh_quality"];
+const stages = [
+  "io/read_cloud",
+  "filtering/remove_points",
+  "meshing/delaunay_projected",
+  "analysis/mesh_quality",
+];
 const plugins = process.env.VELUM_PLUGIN_PATH ?? "";
-const missing = !existsSync(command) || stages.some((stage) => !existsSync(join(plugins, `${stage}.so`)));
+const missing =
+  !existsSync(command) || stages.some((stage) => !existsSync(join(plugins, `${stage}.so`)));
 const skip = missing && "the command and its plugins are not built";
 
 const graph = `format = 1
@@ -35,12 +41,25 @@ in = "mesh"
 
 let browser;
 let points;
-const velum = (...args) => execFileSync(command, args, { cwd: browser.folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, VELUM_REPORT_TEMPLATE: process.env.VELUM_PAGE, XDG_CACHE_HOME: browser.folder } });
+const velum = (...args) =>
+  execFileSync(command, args, {
+    cwd: browser.folder,
+    encoding: "utf8",
+    stdio: ["ignore", "pipe", "pipe"],
+    env: {
+      ...process.env,
+      VELUM_REPORT_TEMPLATE: process.env.VELUM_PAGE,
+      XDG_CACHE_HOME: browser.folder,
+    },
+  });
 
 before(async () => {
   browser = await Browser.start();
   points = sailGrid(25, 30, () => 0).points;
-  await writeFile(join(browser.folder, "sail.xyz"), points.map((p) => p.map((x) => x.toFixed(6)).join(" ")).join("\n"));
+  await writeFile(
+    join(browser.folder, "sail.xyz"),
+    points.map((p) => p.map((x) => x.toFixed(6)).join(" ")).join("\n"),
+  );
   await writeFile(join(browser.folder, "sail.toml"), graph);
 });
 after(() => browser.close());
@@ -52,15 +71,25 @@ test("the command's report opens, draws, picks, and its TOML runs", { skip }, as
   assert.equal(await page.locator(".graph .node.ok").count(), run.nodes.length);
   assert.ok((await drawn(page, "#view canvas")).share > 0.05);
   assert.match(await page.locator("#node-quality").textContent(), /border_length/);
-  assert.match(await page.locator("#stages").textContent(), /meshing\.delaunay_projected.*GPL-3\.0-or-later/);
+  assert.match(
+    await page.locator("#stages").textContent(),
+    /meshing\.delaunay_projected.*GPL-3\.0-or-later/,
+  );
 
   // Every point is where the file has it, to the rounding that the page names.
   const shown = await page.evaluate(() => {
-    const { value } = window.velum.explorer.entries.find((entry) => entry.value.id === "scan.cloud");
-    return { step: value.step(), points: Array.from({ length: value.shown }, (_, i) => value.point(i)) };
+    const { value } = window.velum.explorer.entries.find(
+      (entry) => entry.value.id === "scan.cloud",
+    );
+    return {
+      step: value.step(),
+      points: Array.from({ length: value.shown }, (_, i) => value.point(i)),
+    };
   });
   assert.equal(shown.points.length, points.length);
-  shown.points.forEach((p, i) => p.forEach((x, axis) => assert.ok(Math.abs(x - points[i][axis]) <= shown.step[axis] / 2 + 2e-6)));
+  shown.points.forEach((p, i) =>
+    p.forEach((x, axis) => assert.ok(Math.abs(x - points[i][axis]) <= shown.step[axis] / 2 + 2e-6)),
+  );
 
   const toml = await page.evaluate(() => {
     const { explorer } = window.velum;
@@ -78,9 +107,19 @@ test("the command's report opens, draws, picks, and its TOML runs", { skip }, as
 });
 
 test("a run that failed has its report too", { skip }, async () => {
-  await writeFile(join(browser.folder, "flat.xyz"), Array.from({ length: 50 }, (_, i) => `${i} 0 0`).join("\n"));
+  await writeFile(
+    join(browser.folder, "flat.xyz"),
+    Array.from({ length: 50 }, (_, i) => `${i} 0 0`).join("\n"),
+  );
   await writeFile(join(browser.folder, "flat.toml"), graph.replace("sail.xyz", "flat.xyz"));
-  const { status } = spawnSync(command, ["run", "flat.toml", "--out", "flat", "--report"], { cwd: browser.folder, env: { ...process.env, VELUM_REPORT_TEMPLATE: process.env.VELUM_PAGE, XDG_CACHE_HOME: browser.folder } });
+  const { status } = spawnSync(command, ["run", "flat.toml", "--out", "flat", "--report"], {
+    cwd: browser.folder,
+    env: {
+      ...process.env,
+      VELUM_REPORT_TEMPLATE: process.env.VELUM_PAGE,
+      XDG_CACHE_HOME: browser.folder,
+    },
+  });
   assert.equal(status, 1);
   const page = await browser.openFile(join(browser.folder, "flat", "report.html"));
   const { error } = JSON.parse(await readFile(join(browser.folder, "flat", "run.json"), "utf8"));

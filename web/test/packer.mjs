@@ -21,10 +21,18 @@ export class Packer {
 
   /** `points` are [x, y, z] in metres. */
   positions(points) {
-    const lo = [0, 1, 2].map((axis) => points.reduce((least, p) => Math.min(least, p[axis]), Infinity));
-    const hi = [0, 1, 2].map((axis) => points.reduce((most, p) => Math.max(most, p[axis]), -Infinity));
+    const lo = [0, 1, 2].map((axis) =>
+      points.reduce((least, p) => Math.min(least, p[axis]), Infinity),
+    );
+    const hi = [0, 1, 2].map((axis) =>
+      points.reduce((most, p) => Math.max(most, p[axis]), -Infinity),
+    );
     const q = new Uint16Array(points.length * 3);
-    points.forEach((p, i) => [0, 1, 2].forEach((axis) => { q[3 * i + axis] = Math.round(((p[axis] - lo[axis]) / (hi[axis] - lo[axis] || 1)) * 65535); }));
+    points.forEach((p, i) =>
+      [0, 1, 2].forEach((axis) => {
+        q[3 * i + axis] = Math.round(((p[axis] - lo[axis]) / (hi[axis] - lo[axis] || 1)) * 65535);
+      }),
+    );
     return { at: this.put(q), lo, hi };
   }
 
@@ -32,23 +40,48 @@ export class Packer {
     const finite = values.filter((x) => x !== null);
     const lo = finite.reduce((a, b) => Math.min(a, b), Infinity);
     const hi = finite.reduce((a, b) => Math.max(a, b), -Infinity);
-    const q = Uint16Array.from(values, (x) => (x === null ? 65535 : Math.round(((x - lo) / (hi - lo || 1)) * 65534)));
+    const q = Uint16Array.from(values, (x) =>
+      x === null ? 65535 : Math.round(((x - lo) / (hi - lo || 1)) * 65534),
+    );
     return { name, unit, kind: "number", at: this.put(q), lo, hi };
   }
 
   labels(name, values, names) {
-    return { name, unit: "", kind: "label", at: this.put(Uint16Array.from(values, (x) => (x < 0 ? 65535 : x))), bits: 16, ...(names && { names }) };
+    return {
+      name,
+      unit: "",
+      kind: "label",
+      at: this.put(Uint16Array.from(values, (x) => (x < 0 ? 65535 : x))),
+      bits: 16,
+      ...(names && { names }),
+    };
   }
 
   cloud(id, points, columns = [], more = {}) {
     const [node, output] = [id.slice(0, id.lastIndexOf(".")), id.slice(id.lastIndexOf(".") + 1)];
-    return { id, node: node.slice(node.indexOf("/") + 1), output, type: "cloud", count: points.length, shown: points.length, origin: [0, 0, 0], positions: this.positions(points), columns, sensors: [], ...more };
+    return {
+      id,
+      node: node.slice(node.indexOf("/") + 1),
+      output,
+      type: "cloud",
+      count: points.length,
+      shown: points.length,
+      origin: [0, 0, 0],
+      positions: this.positions(points),
+      columns,
+      sensors: [],
+      ...more,
+    };
   }
 
   mesh(id, points, triangles, columns = [], more = {}) {
     const wide = points.length > 65535;
     const flat = (wide ? Uint32Array : Uint16Array).from(triangles.flat());
-    return { ...this.cloud(id, points, columns, more), type: "mesh", triangles: { at: this.put(flat), count: triangles.length, bits: wide ? 32 : 16 } };
+    return {
+      ...this.cloud(id, points, columns, more),
+      type: "mesh",
+      triangles: { at: this.put(flat), count: triangles.length, bits: wide ? 32 : 16 },
+    };
   }
 
   /** The page with its data. */
@@ -56,7 +89,11 @@ export class Packer {
     const marker = "<!-- velum:data -->\n";
     const block = Buffer.concat(this.parts).toString("base64");
     const text = JSON.stringify(json).replaceAll("<", "\\u003c");
-    return template.replace(marker, () => `<script id="velum-report" type="application/json">${text}</script>\n<script id="velum-data" type="text/plain">${block}</script>\n`);
+    return template.replace(
+      marker,
+      () =>
+        `<script id="velum-report" type="application/json">${text}</script>\n<script id="velum-data" type="text/plain">${block}</script>\n`,
+    );
   }
 }
 

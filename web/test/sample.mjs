@@ -7,5 +7,8 @@ import { sampleRun } from "./sample_run.mjs";
 import { sampleStudy } from "./sample_study.mjs";
 
 const [template, kind, out, points] = process.argv.slice(2);
-const { packer, json } = kind === "study" ? sampleStudy() : sampleRun({ failed: kind === "failed", points: Number(points ?? 4000) });
+const { packer, json } =
+  kind === "study"
+    ? sampleStudy()
+    : sampleRun({ failed: kind === "failed", points: Number(points ?? 4000) });
 await writeFile(out, packer.page(await readFile(template, "utf8"), json));

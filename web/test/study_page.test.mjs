@@ -35,9 +35,14 @@ test("columns sort up and down, empty cells last", async () => {
   const values = (await column("error.rms")).map((text) => parseFloat(text));
   assert.ok(Number.isNaN(values.at(-1)));
   const numbers = values.filter((x) => !Number.isNaN(x));
-  assert.deepEqual(numbers, [...numbers].sort((a, b) => a - b));
+  assert.deepEqual(
+    numbers,
+    [...numbers].sort((a, b) => a - b),
+  );
   await page.locator(".study-table thead button", { hasText: "error.rms" }).click();
-  const down = (await column("error.rms")).map((text) => parseFloat(text)).filter((x) => !Number.isNaN(x));
+  const down = (await column("error.rms"))
+    .map((text) => parseFloat(text))
+    .filter((x) => !Number.isNaN(x));
   assert.deepEqual(down, [...numbers].reverse());
   assert.equal(await page.locator('.study-table th[aria-sort="descending"]').count(), 1);
 });
@@ -57,18 +62,27 @@ test("words and status filter, also cell by cell", async () => {
 });
 
 test("the CSV is downloaded as it was written", async () => {
-  const [file] = await Promise.all([page.waitForEvent("download"), page.locator("#table").getByText("Download CSV").click()]);
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.locator("#table").getByText("Download CSV").click(),
+  ]);
   assert.equal(file.suggestedFilename(), "study.csv");
   assert.equal(await readFile(await file.path(), "utf8"), sampleStudy().json.csv);
 });
 
 test("bars, boxes and curves follow the measure", async () => {
   await page.locator("#comparison").scrollIntoViewIfNeeded();
-  await page.waitForFunction(() => document.querySelectorAll("#comparison .plot .xtitle, #comparison .plot .g-xtitle text").length >= 3);
+  await page.waitForFunction(
+    () =>
+      document.querySelectorAll("#comparison .plot .xtitle, #comparison .plot .g-xtitle text")
+        .length >= 3,
+  );
   const titles = () => page.locator("#comparison .g-xtitle").allTextContents();
   assert.match((await titles())[0], /error\.rms \[mm\]/);
   await page.locator("#measure").selectOption("mesh.seconds");
-  await page.waitForFunction(() => /mesh\.seconds \[s\]/.test(document.querySelector("#comparison .g-xtitle")?.textContent));
+  await page.waitForFunction(() =>
+    /mesh\.seconds \[s\]/.test(document.querySelector("#comparison .g-xtitle")?.textContent),
+  );
   assert.equal(await page.locator("#comparison .plot").first().locator(".bars .point").count(), 11);
 });
 
@@ -84,7 +98,12 @@ test("views are drawn and turn together until they are let go", async () => {
   assert.equal(await page.locator(".pane").count(), 4);
   await page.locator(".pane canvas").first().scrollIntoViewIfNeeded();
   assert.ok((await drawn(page, ".pane canvas")).share > 0.05);
-  const positions = () => page.evaluate(() => window.velum.panes.map((view) => view.camera.position.toArray().map((x) => Math.round(1e6 * x))));
+  const positions = () =>
+    page.evaluate(() =>
+      window.velum.panes.map((view) =>
+        view.camera.position.toArray().map((x) => Math.round(1e6 * x)),
+      ),
+    );
   const before = await positions();
   await page.locator(".pane canvas").first().focus();
   await page.keyboard.press("ArrowLeft");
@@ -102,7 +121,10 @@ test("views are drawn and turn together until they are let go", async () => {
 test("a pane shows the variant that is chosen", async () => {
   const select = page.locator(".pane select").nth(1);
   await select.selectOption("v12");
-  assert.equal(await page.evaluate(() => window.velum.panes[1].layers[0].value.id), "v12/mesh.mesh");
+  assert.equal(
+    await page.evaluate(() => window.velum.panes[1].layers[0].value.id),
+    "v12/mesh.mesh",
+  );
 });
 
 test("all works without a mouse and has a name", async () => {

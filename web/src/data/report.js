@@ -9,7 +9,8 @@ export function readReport(root = document) {
   const json = root.getElementById("velum-report");
   if (!json) return null;
   const report = JSON.parse(json.textContent);
-  if (report.format !== 1) throw new Error(`this page reads reports of format 1, not ${report.format}`);
+  if (report.format !== 1)
+    throw new Error(`this page reads reports of format 1, not ${report.format}`);
   const block = bytesOf(root.getElementById("velum-data")?.textContent ?? "");
   report.values = (report.values ?? []).map((value) => new Value(value, block));
   report.histograms ??= [];

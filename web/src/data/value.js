@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
 
-const kSteps = 65535;  // of a quantised position
-const kNoNumber = 65535;  // in a column of numbers
+const kSteps = 65535; // of a quantised position
+const kNoNumber = 65535; // in a column of numbers
 
 /** A value of the run: what the JSON says, and its arrays as views into the block of binary data. */
 export class Value {
@@ -98,7 +98,8 @@ export class Value {
     let below = 0;
     for (let step = 0; step < kNoNumber; ++step) {
       below += counts[step];
-      if (below >= share * total && total > 0) return column.lo + (step / (kNoNumber - 1)) * (column.hi - column.lo);
+      if (below >= share * total && total > 0)
+        return column.lo + (step / (kNoNumber - 1)) * (column.hi - column.lo);
     }
     return column.hi;
   }
@@ -126,7 +127,7 @@ function countLabels(raw, none) {
   return labels.map(([label, count]) => ({ label, count }));
 }
 
-const kGrades = ["good", "fair", "bad"];  // of analysis.displacement
+const kGrades = ["good", "fair", "bad"]; // of analysis.displacement
 
 export function labelName(column, label) {
   if (label === null) return "none";

@@ -11,11 +11,19 @@ const kLast = 6;
 /** Wires of a run's nodes: { from, to, output, input, type }. */
 export function wiresOf(nodes) {
   const known = new Set(nodes.map((node) => node.name));
-  return nodes.flatMap((node) => Object.entries(node.in ?? {}).flatMap(([input, wires]) =>
-    [wires].flat().filter(Boolean).map((wire) => {
-      const [from, output] = split(wire.from, known);
-      return { from, output, to: node.name, input, type: wire.type };
-    }))).filter((wire) => known.has(wire.from));
+  return nodes
+    .flatMap((node) =>
+      Object.entries(node.in ?? {}).flatMap(([input, wires]) =>
+        [wires]
+          .flat()
+          .filter(Boolean)
+          .map((wire) => {
+            const [from, output] = split(wire.from, known);
+            return { from, output, to: node.name, input, type: wire.type };
+          }),
+      ),
+    )
+    .filter((wire) => known.has(wire.from));
 }
 
 /** "node.output", where a node's name may have dots itself. */
@@ -32,12 +40,21 @@ function split(text, known) {
  */
 export function layOut(nodes, wires, { size, gap, thin }) {
   const layer = layersOf(nodes, wires);
-  const items = new Map(nodes.map(({ name }) => [name, { layer: layer.get(name), size, links: [], back: [], forth: [] }]));
+  const items = new Map(
+    nodes.map(({ name }) => [
+      name,
+      { layer: layer.get(name), size, links: [], back: [], forth: [] },
+    ]),
+  );
   const routes = new Map(wires.map((wire) => [wire, routeOf(wire, items, thin)]));
-  for (const route of routes.values()) for (let i = 1; i < route.length; ++i) link(items.get(route[i - 1]), items.get(route[i]));
+  for (const route of routes.values())
+    for (let i = 1; i < route.length; ++i) link(items.get(route[i - 1]), items.get(route[i]));
   const columns = [];
   for (const item of items.values()) (columns[item.layer] ??= []).push(item);
-  for (const column of columns) column.forEach((item, i) => { item.across = i * (size + gap); });
+  for (const column of columns)
+    column.forEach((item, i) => {
+      item.across = i * (size + gap);
+    });
   arrange(columns, gap);
   straighten(columns, gap, size);
   const low = Math.min(...[...items.values()].map((item) => item.across - item.size / 2));
@@ -88,11 +105,14 @@ function layersOf(nodes, wires) {
     }
   }
   // A source stands right before the first that cannot do with it alone, and its own sinks after it.
-  const givers = (name) => new Set(wires.filter((wire) => wire.to === name).map((wire) => wire.from));
+  const givers = (name) =>
+    new Set(wires.filter((wire) => wire.to === name).map((wire) => wire.from));
   for (const { name } of nodes) {
     if (givers(name).size) continue;
     const takers = wires.filter((wire) => wire.from === name).map((wire) => wire.to);
-    const others = takers.filter((taker) => givers(taker).size > 1 || wires.some((wire) => wire.from === taker));
+    const others = takers.filter(
+      (taker) => givers(taker).size > 1 || wires.some((wire) => wire.from === taker),
+    );
     if (others.length) layer.set(name, Math.min(...others.map((taker) => layer.get(taker))) - 1);
     for (const taker of takers) if (!others.includes(taker)) layer.set(taker, layer.get(name) + 1);
   }

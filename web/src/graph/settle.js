@@ -3,7 +3,7 @@
 // Where the items of one layer lie: { across, size, links, back, forth }, `across` being the middle.
 
 const kRounds = 4;
-const kNearly = 0.45;  // of a node's size: wires that are this little bent are made straight
+const kNearly = 0.45; // of a node's size: wires that are this little bent are made straight
 
 const room = (a, b, gap) => (a.size + b.size) / 2 + gap;
 
@@ -13,7 +13,9 @@ const room = (a, b, gap) => (a.size + b.size) / 2 + gap;
  */
 export function settle(column, side, gap) {
   for (const item of column)
-    item.wanted = item[side].length ? item[side].reduce((sum, other) => sum + other.across, 0) / item[side].length : item.across;
+    item.wanted = item[side].length
+      ? item[side].reduce((sum, other) => sum + other.across, 0) / item[side].length
+      : item.across;
   column.sort((a, b) => a.wanted - b.wanted);
   // Blocks of items that touch move together: their place is the mean of what they want.
   const blocks = [];
@@ -27,7 +29,8 @@ export function settle(column, side, gap) {
       blocks.at(-1).sum += last.sum;
     }
   });
-  for (const block of blocks) for (const { item, offset: own } of block.items) item.across = mean(block) + own;
+  for (const block of blocks)
+    for (const { item, offset: own } of block.items) item.across = mean(block) + own;
 }
 
 const mean = (block) => block.sum / block.items.length;
@@ -37,11 +40,20 @@ export function straighten(columns, gap, size) {
   for (let round = 0; round < kRounds; ++round)
     for (const column of columns)
       column.forEach((item, i) => {
-        const near = [...item.back, ...item.forth].filter((other) => Math.abs(other.across - item.across) < kNearly * size);
+        const near = [...item.back, ...item.forth].filter(
+          (other) => Math.abs(other.across - item.across) < kNearly * size,
+        );
         if (near.length === 0) return;
         const low = i > 0 ? column[i - 1].across + room(column[i - 1], item, gap) : -Infinity;
-        const high = i + 1 < column.length ? column[i + 1].across - room(item, column[i + 1], gap) : Infinity;
-        const goal = near.reduce((best, other) => (Math.abs(other.across - item.across) < Math.abs(best - item.across) ? other.across : best), near[0].across);
+        const high =
+          i + 1 < column.length ? column[i + 1].across - room(item, column[i + 1], gap) : Infinity;
+        const goal = near.reduce(
+          (best, other) =>
+            Math.abs(other.across - item.across) < Math.abs(best - item.across)
+              ? other.across
+              : best,
+          near[0].across,
+        );
         if (goal >= low && goal <= high) item.across = goal;
       });
 }

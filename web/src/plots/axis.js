@@ -14,6 +14,7 @@ export function logAxis(values) {
   const leads = decades * 3 <= kMostTicks ? [1, 2, 5] : [1];
   const every = Math.max(1, Math.ceil(decades / kMostTicks));
   const tickvals = [];
-  for (let power = lo; power <= hi; power += every) for (const lead of leads) tickvals.push(lead * 10 ** power);
+  for (let power = lo; power <= hi; power += every)
+    for (const lead of leads) tickvals.push(lead * 10 ** power);
   return { type: "log", tickmode: "array", tickvals, ticktext: tickvals.map((x) => number(x, 2)) };
 }

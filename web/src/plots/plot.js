@@ -4,12 +4,22 @@ import Plotly from "plotly.js-cartesian-dist-min";
 import { h } from "../dom.js";
 import { isPrinting, layoutFor, onTheme } from "./theme.js";
 
-const kConfig = { displaylogo: false, responsive: true, displayModeBar: "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], showSendToCloud: false, showEditInChartStudio: false };
+const kConfig = {
+  displaylogo: false,
+  responsive: true,
+  displayModeBar: "hover",
+  modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+  showSendToCloud: false,
+  showEditInChartStudio: false,
+};
 
 const all = new Set();
-const seen = new IntersectionObserver((entries) => {
-  for (const entry of entries) if (entry.isIntersecting) entry.target.plot?.draw();
-}, { rootMargin: "300px" });
+const seen = new IntersectionObserver(
+  (entries) => {
+    for (const entry of entries) if (entry.isIntersecting) entry.target.plot?.draw();
+  },
+  { rootMargin: "300px" },
+);
 
 /**
  * A plot that is drawn when it comes into sight. `make()` gives { data, layout }; it is asked again when
@@ -18,7 +28,12 @@ const seen = new IntersectionObserver((entries) => {
 export class Plot {
   constructor(label, make, height = 300) {
     this.make = make;
-    this.element = h("div", { class: "plot", role: "img", "aria-label": label, style: { height: `${height}px` } });
+    this.element = h("div", {
+      class: "plot",
+      role: "img",
+      "aria-label": label,
+      style: { height: `${height}px` },
+    });
     this.element.plot = this;
     all.add(this);
     seen.observe(this.element);

@@ -7,11 +7,34 @@ export function againSection(run) {
   const command = "velum rerun run.json";
   const { resolved } = run.graph;
   return [
-    h("p", {}, "In the folder of this report; it says whether the results are the same, or what differs:"),
-    h("div", { class: "command" }, h("pre", {}, h("code", {}, command)), copyButton("Copy", () => command)),
-    h("p", { class: "hint" }, `Graph ${run.graph.path}, hash ${run.graph.hash}, seed ${run.seed}, Velum ${run.velum}, ${run.machine?.instruction_set ?? ""}.`),
-    resolved && h("details", {}, h("summary", {}, "The graph as it ran, included files merged and settings applied"),
-      h("div", { class: "buttons" }, copyButton("Copy", () => resolved), button("Download", () => download("graph.toml", resolved, "application/toml"))),
-      h("pre", { class: "toml" }, resolved)),
+    h(
+      "p",
+      {},
+      "In the folder of this report; it says whether the results are the same, or what differs:",
+    ),
+    h(
+      "div",
+      { class: "command" },
+      h("pre", {}, h("code", {}, command)),
+      copyButton("Copy", () => command),
+    ),
+    h(
+      "p",
+      { class: "hint" },
+      `Graph ${run.graph.path}, hash ${run.graph.hash}, seed ${run.seed}, Velum ${run.velum}, ${run.machine?.instruction_set ?? ""}.`,
+    ),
+    resolved &&
+      h(
+        "details",
+        {},
+        h("summary", {}, "The graph as it ran, included files merged and settings applied"),
+        h(
+          "div",
+          { class: "buttons" },
+          copyButton("Copy", () => resolved),
+          button("Download", () => download("graph.toml", resolved, "application/toml")),
+        ),
+        h("pre", { class: "toml" }, resolved),
+      ),
   ];
 }

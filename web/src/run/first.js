@@ -10,7 +10,15 @@ export function firstShown(values, run) {
   const meshes = made.filter((value) => value.isMesh());
   if (meshes.length) {
     // Meshes that a later mesh was made of would only cover it.
-    const used = new Set(run.nodes.filter((node) => Object.values(node.out ?? {}).some((out) => out?.type === "mesh")).flatMap((node) => Object.values(node.in ?? {}).flat().map((wire) => wire?.from)));
+    const used = new Set(
+      run.nodes
+        .filter((node) => Object.values(node.out ?? {}).some((out) => out?.type === "mesh"))
+        .flatMap((node) =>
+          Object.values(node.in ?? {})
+            .flat()
+            .map((wire) => wire?.from),
+        ),
+    );
     const last = meshes.filter((mesh) => !used.has(mesh.id));
     return new Map((last.length ? last : meshes).slice(0, 4).map((mesh) => [mesh.id, "height"]));
   }

@@ -31,7 +31,12 @@ export function runPage(report) {
       ["graph", "Graph", drawGraph(run, openNode)],
       ["view", "Clouds and meshes", viewSection(report, histories)],
       ["sails", "Sails", sailSection(report)],
-      ["registration", "Registration", histories.length > 0 && h("div", { class: "multiples wide" }, histories.flatMap(historyFigures))],
+      [
+        "registration",
+        "Registration",
+        histories.length > 0 &&
+          h("div", { class: "multiples wide" }, histories.flatMap(historyFigures)),
+      ],
       ["histograms", "Distributions", histogramSection(report.histograms)],
       ["nodes", "Nodes: parameters and measures", nodesSection(run, report.stages)],
       ["tables", "Tables", tablesSection(report)],
@@ -52,7 +57,10 @@ function factsOf(run) {
     ["threads", run.threads],
     ["seed", run.seed],
     ["started", moment(run.started)],
-    run.machine && ["machine", `${run.machine.cpu}, ${run.machine.cores} cores, ${bytes(run.machine.memory_bytes)}, ${run.machine.os}`],
+    run.machine && [
+      "machine",
+      `${run.machine.cpu}, ${run.machine.cores} cores, ${bytes(run.machine.memory_bytes)}, ${run.machine.os}`,
+    ],
   ];
 }
 
@@ -60,8 +68,13 @@ function viewSection(report, histories) {
   const values = shapes(report);
   if (values.length === 0) return null;
   return withGraphics(() => {
-    const explorer = new Explorer(values, report.run.nodes, firstShown(values, report.run), histories.map(pathOf).filter(Boolean));
-    window.velum = { view: explorer.view, explorer };  // for tests and the curious
+    const explorer = new Explorer(
+      values,
+      report.run.nodes,
+      firstShown(values, report.run),
+      histories.map(pathOf).filter(Boolean),
+    );
+    window.velum = { view: explorer.view, explorer }; // for tests and the curious
     return explorer.element;
   });
 }
@@ -70,6 +83,8 @@ function viewSection(report, histories) {
 function pathOf(value) {
   const names = value.rows.columns.map((column) => column.name);
   const at = ["x", "y", "z"].map((name) => names.indexOf(name));
-  const points = value.rows.rows.map((row) => at.map((i) => row[i])).filter((point) => point.every(Number.isFinite));
+  const points = value.rows.rows
+    .map((row) => at.map((i) => row[i]))
+    .filter((point) => point.every(Number.isFinite));
   return at.every((i) => i >= 0) && points.length > 1 ? points : null;
 }

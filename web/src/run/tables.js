@@ -15,15 +15,78 @@ export function tablesSection(report) {
 
 function table(value) {
   const { columns, rows } = value.rows;
-  return h("details", {}, h("summary", {}, h("b", {}, value.id), h("small", {}, ` ${rows.length} ${rows.length === 1 ? "row" : "rows"}`)),
-    h("div", { class: "scroll" }, h("table", {},
-      h("thead", {}, h("tr", {}, columns.map(({ name, unit }) => h("th", { scope: "col" }, heading(name, unitText(unit)))))),
-      h("tbody", {}, rows.slice(0, kMostRows).map((row) => h("tr", {}, row.map((cell) => (typeof cell === "number" ? h("td", { class: "n" }, number(cell, 6)) : h("td", {}, cell ?? "\u2013")))))))),
-    rows.length > kMostRows && h("p", { class: "hint" }, `and ${rows.length - kMostRows} more rows`));
+  return h(
+    "details",
+    {},
+    h(
+      "summary",
+      {},
+      h("b", {}, value.id),
+      h("small", {}, ` ${rows.length} ${rows.length === 1 ? "row" : "rows"}`),
+    ),
+    h(
+      "div",
+      { class: "scroll" },
+      h(
+        "table",
+        {},
+        h(
+          "thead",
+          {},
+          h(
+            "tr",
+            {},
+            columns.map(({ name, unit }) =>
+              h("th", { scope: "col" }, heading(name, unitText(unit))),
+            ),
+          ),
+        ),
+        h(
+          "tbody",
+          {},
+          rows.slice(0, kMostRows).map((row) =>
+            h(
+              "tr",
+              {},
+              row.map((cell) =>
+                typeof cell === "number"
+                  ? h("td", { class: "n" }, number(cell, 6))
+                  : h("td", {}, cell ?? "\u2013"),
+              ),
+            ),
+          ),
+        ),
+      ),
+    ),
+    rows.length > kMostRows &&
+      h("p", { class: "hint" }, `and ${rows.length - kMostRows} more rows`),
+  );
 }
 
 function transform(value) {
   const rows = [0, 4, 8, 12].map((at) => value.matrix.flat().slice(at, at + 4));
-  return h("details", {}, h("summary", {}, h("b", {}, value.id), h("small", {}, " transform, row by row, metres")),
-    h("div", { class: "scroll" }, h("table", { class: "matrix" }, h("tbody", {}, rows.map((row) => h("tr", {}, row.map((x) => h("td", { class: "n" }, x.toFixed(9)))))))));
+  return h(
+    "details",
+    {},
+    h("summary", {}, h("b", {}, value.id), h("small", {}, " transform, row by row, metres")),
+    h(
+      "div",
+      { class: "scroll" },
+      h(
+        "table",
+        { class: "matrix" },
+        h(
+          "tbody",
+          {},
+          rows.map((row) =>
+            h(
+              "tr",
+              {},
+              row.map((x) => h("td", { class: "n" }, x.toFixed(9))),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
 }

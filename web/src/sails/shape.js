@@ -6,7 +6,9 @@
 export function sectionsOf(value) {
   const names = value.rows?.columns.map((column) => column.name) ?? [];
   if (!["height", "chord", "camber", "draft"].every((name) => names.includes(name))) return null;
-  const rows = value.rows.rows.map((row) => Object.fromEntries(names.map((name, i) => [name, row[i]])));
+  const rows = value.rows.rows.map((row) =>
+    Object.fromEntries(names.map((name, i) => [name, row[i]])),
+  );
   return rows.length ? rows.sort((a, b) => a.height - b.height) : null;
 }
 
@@ -29,8 +31,15 @@ export function curveOf(row, steps = 40) {
 
 function hermite(x0, y0, m0, x1, y1, m1, t) {
   const width = x1 - x0;
-  const t2 = t * t, t3 = t2 * t;
-  return [x0 + t * width, (2 * t3 - 3 * t2 + 1) * y0 + (t3 - 2 * t2 + t) * width * m0 + (3 * t2 - 2 * t3) * y1 + (t3 - t2) * width * m1];
+  const t2 = t * t,
+    t3 = t2 * t;
+  return [
+    x0 + t * width,
+    (2 * t3 - 3 * t2 + 1) * y0 +
+      (t3 - 2 * t2 + t) * width * m0 +
+      (3 * t2 - 2 * t3) * y1 +
+      (t3 - t2) * width * m1,
+  ];
 }
 
 /** A cut curve of points as [x, y] in shares of the chord; the cambered side is up. */
@@ -42,10 +51,16 @@ export function measuredCurve(section) {
   const off = section.points.map((point) => point.map((x, axis) => x - luff[axis]));
   const x = off.map((d) => d[0] * unit[0] + d[1] * unit[1] + d[2] * unit[2]);
   const away = off.map((d, i) => d.map((c, axis) => c - x[i] * unit[axis]));
-  const deepest = away.reduce((best, d) => (Math.hypot(...d) > Math.hypot(...best) ? d : best), [0, 0, 0]);
+  const deepest = away.reduce(
+    (best, d) => (Math.hypot(...d) > Math.hypot(...best) ? d : best),
+    [0, 0, 0],
+  );
   const depth = Math.hypot(...deepest) || 1;
   const up = deepest.map((c) => c / depth);
-  return x.map((at, i) => [at / length, (away[i][0] * up[0] + away[i][1] * up[1] + away[i][2] * up[2]) / length]);
+  return x.map((at, i) => [
+    at / length,
+    (away[i][0] * up[0] + away[i][1] * up[1] + away[i][2] * up[2]) / length,
+  ]);
 }
 
 /** [x, y] of the chord's share turned by the twist and set to length, luff at the origin, metres. */

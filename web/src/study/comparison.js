@@ -11,31 +11,91 @@ import { sweep } from "./sweep.js";
 const kMost = 40;
 
 export function comparisonSection(study) {
-  const state = { measure: study.names[0], axis: sweepable(study)[0]?.name, log: false, order: "study" };
+  const state = {
+    measure: study.names[0],
+    axis: sweepable(study)[0]?.name,
+    log: false,
+    order: "study",
+  };
   const parts = [
-    { title: "Mean with its 95 % interval", make: () => bars(study, state, chosen()), height: () => 90 + 24 * chosen().length },
-    study.hasRepeats() && { title: "All repeats", make: () => boxes(study, state, chosen()), height: () => 90 + 24 * chosen().length },
-    state.axis !== undefined && { title: "Over a parameter", make: () => sweep(study, state), height: () => 400, axis: true },
+    {
+      title: "Mean with its 95 % interval",
+      make: () => bars(study, state, chosen()),
+      height: () => 90 + 24 * chosen().length,
+    },
+    study.hasRepeats() && {
+      title: "All repeats",
+      make: () => boxes(study, state, chosen()),
+      height: () => 90 + 24 * chosen().length,
+    },
+    state.axis !== undefined && {
+      title: "Over a parameter",
+      make: () => sweep(study, state),
+      height: () => 400,
+      axis: true,
+    },
   ].filter(Boolean);
   const chosen = () => selection(study, state);
-  const plots = parts.map((part) => new Plot(`${part.title}: ${state.measure}`, part.make, part.height()));
-  const update = () => plots.forEach((plot, i) => {
-    plot.setHeight(parts[i].height());
-    plot.update(`${parts[i].title}: ${state.measure}`);
-  });
+  const plots = parts.map(
+    (part) => new Plot(`${part.title}: ${state.measure}`, part.make, part.height()),
+  );
+  const update = () =>
+    plots.forEach((plot, i) => {
+      plot.setHeight(parts[i].height());
+      plot.update(`${parts[i].title}: ${state.measure}`);
+    });
   const set = (key) => (value) => {
     state[key] = value;
     update();
   };
   const left = study.variants.length - chosen().length;
   return [
-    h("div", { class: "filters" },
-      choice("measure", study.names.map((name) => [name, study.titled(name)]), state.measure, set("measure"), { id: "measure" }),
-      choice("order", [["study", "as in the study"], ["best", "best first"]], "study", set("order")),
-      sweepable(study).length > 1 && choice("over", sweepable(study).map((axis) => [axis.name, axis.name]), state.axis, set("axis")),
-      tick("logarithmic", false, set("log"))),
-    h("div", { class: "multiples wide" }, parts.map((part, i) => h("figure", { class: "card" }, h("figcaption", {}, h("b", {}, part.title)), plots[i].element))),
-    left > 0 && h("p", { class: "hint" }, `Bars and boxes show ${chosen().length} of ${study.variants.length} variants: those that failed are in the table, of more than ${kMost} the best are shown.`),
+    h(
+      "div",
+      { class: "filters" },
+      choice(
+        "measure",
+        study.names.map((name) => [name, study.titled(name)]),
+        state.measure,
+        set("measure"),
+        { id: "measure" },
+      ),
+      choice(
+        "order",
+        [
+          ["study", "as in the study"],
+          ["best", "best first"],
+        ],
+        "study",
+        set("order"),
+      ),
+      sweepable(study).length > 1 &&
+        choice(
+          "over",
+          sweepable(study).map((axis) => [axis.name, axis.name]),
+          state.axis,
+          set("axis"),
+        ),
+      tick("logarithmic", false, set("log")),
+    ),
+    h(
+      "div",
+      { class: "multiples wide" },
+      parts.map((part, i) =>
+        h(
+          "figure",
+          { class: "card" },
+          h("figcaption", {}, h("b", {}, part.title)),
+          plots[i].element,
+        ),
+      ),
+    ),
+    left > 0 &&
+      h(
+        "p",
+        { class: "hint" },
+        `Bars and boxes show ${chosen().length} of ${study.variants.length} variants: those that failed are in the table, of more than ${kMost} the best are shown.`,
+      ),
   ];
 }
 

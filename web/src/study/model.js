@@ -17,8 +17,12 @@ export class Study {
     this.names = Object.keys(this.measures ?? {});
     // An axis that has one value only tells no variants apart.
     this.telling = this.axes.filter((axis) => axis.values.length > 1);
-    this.colours = new Map((this.telling[0]?.values ?? []).map((value, i) => [value, categoryCss(i)]));
-    this.scales = new Map(this.names.map((name) => [name, scaleFor(this.unitOf(name), this.#size(name))]));
+    this.colours = new Map(
+      (this.telling[0]?.values ?? []).map((value, i) => [value, categoryCss(i)]),
+    );
+    this.scales = new Map(
+      this.names.map((name) => [name, scaleFor(this.unitOf(name), this.#size(name))]),
+    );
   }
 
   /** peak_bytes has its unit in its name. */
@@ -27,7 +31,10 @@ export class Study {
   }
 
   #size(name) {
-    return Math.max(0, ...this.variants.map((variant) => Math.abs(variant.summary?.[name]?.mean ?? 0)));
+    return Math.max(
+      0,
+      ...this.variants.map((variant) => Math.abs(variant.summary?.[name]?.mean ?? 0)),
+    );
   }
 
   /** Name and unit as shown. */
@@ -45,7 +52,9 @@ export class Study {
   }
 
   values(variant, name) {
-    return variant.runs.filter((run) => run.status === "ok" && typeof run.measures?.[name] === "number").map((run) => run.measures[name]);
+    return variant.runs
+      .filter((run) => run.status === "ok" && typeof run.measures?.[name] === "number")
+      .map((run) => run.measures[name]);
   }
 
   /** What tells a variant apart, short. */
@@ -60,18 +69,26 @@ export class Study {
   /** A first choice for a scatter: an accuracy across, a cost up. */
   firstPair() {
     const accuracy = this.names.find((name) => !kCost.test(name)) ?? this.names[0];
-    const cost = this.names.find((name) => kCost.test(name) && name !== accuracy) ?? this.names.find((name) => name !== accuracy);
+    const cost =
+      this.names.find((name) => kCost.test(name) && name !== accuracy) ??
+      this.names.find((name) => name !== accuracy);
     return [cost ?? accuracy, accuracy];
   }
 
   hasRepeats() {
-    return this.variants.some((variant) => Object.values(variant.summary ?? {}).some((summary) => summary.count > 1));
+    return this.variants.some((variant) =>
+      Object.values(variant.summary ?? {}).some((summary) => summary.count > 1),
+    );
   }
 }
 
 /** "80 mm" as 80 in "mm"; null unless all values of an axis are numbers in one unit. */
 export function numericAxis(axis) {
   const parsed = axis.values.map((text) => /^\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\D*)$/i.exec(text));
-  if (parsed.some((match) => !match) || new Set(parsed.map((match) => match[2])).size > 1) return null;
-  return { unit: parsed[0][2].trim(), at: new Map(axis.values.map((text, i) => [text, Number(parsed[i][1])])) };
+  if (parsed.some((match) => !match) || new Set(parsed.map((match) => match[2])).size > 1)
+    return null;
+  return {
+    unit: parsed[0][2].trim(),
+    at: new Map(axis.values.map((text, i) => [text, Number(parsed[i][1])])),
+  };
 }

@@ -28,19 +28,56 @@ export function sweep(study, { measure, axis: name, log }) {
     curves.get(key).push(variant);
   }
   const values = [...numeric.at.values()];
-  const geometric = values.length > 2 && Math.min(...values) > 0 && Math.max(...values) / Math.min(...values) > 8;
+  const geometric =
+    values.length > 2 && Math.min(...values) > 0 && Math.max(...values) / Math.min(...values) > 8;
   const first = others[0];
   const data = [...curves].flatMap(([label, variants], i) => {
-    const colour = categoryCss(first ? Math.max(0, first.values.indexOf(variants[0].axes[first.name])) : 0);
-    const dash = kDashes[others.length > 1 ? Math.max(0, others[1].values.indexOf(variants[0].axes[others[1].name])) % kDashes.length : 0];
-    const text = averaged.length ? `${others.length ? label : "mean"}, over all ${averaged.map((one) => one.name).join(", ")}` : label;
-    return curve(study, measure, text, pointsOf(study, measure, variants, ({ axes }) => numeric.at.get(axes[name])), colour, dash, i);
+    const colour = categoryCss(
+      first ? Math.max(0, first.values.indexOf(variants[0].axes[first.name])) : 0,
+    );
+    const dash =
+      kDashes[
+        others.length > 1
+          ? Math.max(0, others[1].values.indexOf(variants[0].axes[others[1].name])) % kDashes.length
+          : 0
+      ];
+    const text = averaged.length
+      ? `${others.length ? label : "mean"}, over all ${averaged.map((one) => one.name).join(", ")}`
+      : label;
+    return curve(
+      study,
+      measure,
+      text,
+      pointsOf(study, measure, variants, ({ axes }) => numeric.at.get(axes[name])),
+      colour,
+      dash,
+      i,
+    );
   });
   return {
     data,
     layout: {
-      xaxis: { title: heading(name, numeric.unit), ...(geometric && (values.length > kMostTicks ? logAxis(values) : { type: "log", tickmode: "array", tickvals: values, ticktext: values.map((x) => number(x, 4)) })) },
-      yaxis: { title: study.titled(measure), ...(log && logAxis([...curves.values()].flat().map(({ summary }) => study.shown(measure, summary[measure].mean)))) },
+      xaxis: {
+        title: heading(name, numeric.unit),
+        ...(geometric &&
+          (values.length > kMostTicks
+            ? logAxis(values)
+            : {
+                type: "log",
+                tickmode: "array",
+                tickvals: values,
+                ticktext: values.map((x) => number(x, 4)),
+              })),
+      },
+      yaxis: {
+        title: study.titled(measure),
+        ...(log &&
+          logAxis(
+            [...curves.values()]
+              .flat()
+              .map(({ summary }) => study.shown(measure, summary[measure].mean)),
+          )),
+      },
       showlegend: curves.size > 1,
     },
   };
@@ -54,11 +91,19 @@ function pointsOf(study, measure, variants, valueOf) {
     if (!places.has(x)) places.set(x, []);
     places.get(x).push(variant.summary[measure]);
   }
-  return [...places].sort((a, b) => a[0] - b[0]).map(([x, summaries]) => {
-    const mean = study.shown(measure, summaries.reduce((sum, summary) => sum + summary.mean, 0) / summaries.length);
-    const [low, high] = summaries.length === 1 ? summaries[0].ci95.map((value) => study.shown(measure, value)) : [mean, mean];
-    return { x, mean, low, high };
-  });
+  return [...places]
+    .sort((a, b) => a[0] - b[0])
+    .map(([x, summaries]) => {
+      const mean = study.shown(
+        measure,
+        summaries.reduce((sum, summary) => sum + summary.mean, 0) / summaries.length,
+      );
+      const [low, high] =
+        summaries.length === 1
+          ? summaries[0].ci95.map((value) => study.shown(measure, value))
+          : [mean, mean];
+      return { x, mean, low, high };
+    });
 }
 
 function curve(study, measure, label, points, colour, dash, i) {
@@ -67,7 +112,26 @@ function curve(study, measure, label, points, colour, dash, i) {
   const high = points.map((point) => point.high);
   const band = colour.replace("rgb(", "rgba(").replace(")", ", 0.15)");
   return [
-    { x: [...x, ...[...x].reverse()], y: [...high, ...low.reverse()], fill: "toself", fillcolor: band, line: { width: 0 }, mode: "lines", hoverinfo: "skip", showlegend: false, legendgroup: String(i) },
-    { x, y: points.map((point) => point.mean), name: label, mode: "lines+markers", line: { color: colour, width: 2, dash }, marker: { size: 7 }, legendgroup: String(i), hovertemplate: `${label} %{x}: %{y:.4g} ${study.scales.get(measure).unit}<extra></extra>` },
+    {
+      x: [...x, ...[...x].reverse()],
+      y: [...high, ...low.reverse()],
+      fill: "toself",
+      fillcolor: band,
+      line: { width: 0 },
+      mode: "lines",
+      hoverinfo: "skip",
+      showlegend: false,
+      legendgroup: String(i),
+    },
+    {
+      x,
+      y: points.map((point) => point.mean),
+      name: label,
+      mode: "lines+markers",
+      line: { color: colour, width: 2, dash },
+      marker: { size: 7 },
+      legendgroup: String(i),
+      hovertemplate: `${label} %{x}: %{y:.4g} ${study.scales.get(measure).unit}<extra></extra>`,
+    },
   ];
 }

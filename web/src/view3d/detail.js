@@ -3,16 +3,16 @@
 // Keeps turning smooth on slow graphics: while the camera moves and frames take long, edges are not
 // smoothed and fewer points are drawn; as soon as it rests everything is.
 
-const kSlow = 55;  // ms a frame: above it there is less
-const kQuick = 20;  // below it there may be more
-const kRest = 220;  // ms without motion, more where frames take long
+const kSlow = 55; // ms a frame: above it there is less
+const kQuick = 20; // below it there may be more
+const kRest = 220; // ms without motion, more where frames take long
 const kLongest = 1000;
 const kLeast = 6;
 
 export class Detail {
   constructor(redraw) {
     this.redraw = redraw;
-    this.level = 0;  // 0 everything, 1 without smoothing, then half of the points each time
+    this.level = 0; // 0 everything, 1 without smoothing, then half of the points each time
     this.quick = 0;
     this.took = 0;
   }
@@ -21,11 +21,14 @@ export class Detail {
   moved() {
     clearTimeout(this.timer);
     this.moving = true;
-    this.timer = setTimeout(() => {
-      this.moving = false;
-      this.last = null;
-      this.redraw();
-    }, Math.max(kRest, 3 * this.took));
+    this.timer = setTimeout(
+      () => {
+        this.moving = false;
+        this.last = null;
+        this.redraw();
+      },
+      Math.max(kRest, 3 * this.took),
+    );
   }
 
   /** What to draw in a frame that begins now [ms]: { smooth, share of the points }. */
@@ -35,7 +38,8 @@ export class Detail {
     this.took = Math.min(took, kLongest);
     this.last = now;
     this.quick = took > 0 && took < kQuick ? this.quick + 1 : 0;
-    if (took > kSlow) this.level = Math.min(kLeast, this.level + Math.ceil(Math.log2(took / kSlow)));
+    if (took > kSlow)
+      this.level = Math.min(kLeast, this.level + Math.ceil(Math.log2(took / kSlow)));
     else if (this.quick > 20 && this.level > 0) {
       this.level -= 1;
       this.quick = 0;

@@ -15,7 +15,13 @@ export class Dome {
       nearFar: { value: new THREE.Vector2() },
       strength: { value: this.strength },
     };
-    const material = new THREE.ShaderMaterial({ ...domeShader, uniforms: this.uniforms, depthTest: false, depthWrite: false, blending: THREE.NoBlending });
+    const material = new THREE.ShaderMaterial({
+      ...domeShader,
+      uniforms: this.uniforms,
+      depthTest: false,
+      depthWrite: false,
+      blending: THREE.NoBlending,
+    });
     this.scene = new THREE.Scene();
     this.scene.add(new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material));
     this.scene.children[0].frustumCulled = false;
@@ -31,7 +37,10 @@ export class Dome {
   /** The picture to draw into, with smoothed edges or without. */
   #target(smooth) {
     const [width, height] = this.size;
-    this.targets[smooth] ??= new THREE.WebGLRenderTarget(width, height, { samples: smooth ? 4 : 0, depthTexture: new THREE.DepthTexture(width, height, THREE.UnsignedIntType) });
+    this.targets[smooth] ??= new THREE.WebGLRenderTarget(width, height, {
+      samples: smooth ? 4 : 0,
+      depthTexture: new THREE.DepthTexture(width, height, THREE.UnsignedIntType),
+    });
     return this.targets[smooth];
   }
 

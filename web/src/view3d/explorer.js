@@ -46,14 +46,23 @@ export class Explorer {
     this.scanners = new Scanners(this.view);
     this.legends = h("div", { class: "legends" });
     this.scale = h("span", { class: "scale" });
-    this.view.grid.onSpacing = (spacing) => { this.scale.textContent = `grid ${quantity(spacing, "m")}`; };
+    this.view.grid.onSpacing = (spacing) => {
+      this.scale.textContent = `grid ${quantity(spacing, "m")}`;
+    };
     this.entries = values.map((value, i) => this.#entry(value, i));
-    for (const entry of this.entries) if (first.has(entry.value.id)) entry.show(true, first.get(entry.value.id));
-    this.view.element.append(this.legends, this.scale, h("span", { class: "cross", "aria-hidden": "true" }));
+    for (const entry of this.entries)
+      if (first.has(entry.value.id)) entry.show(true, first.get(entry.value.id));
+    this.view.element.append(
+      this.legends,
+      this.scale,
+      h("span", { class: "cross", "aria-hidden": "true" }),
+    );
     this.paths = paths.map((points) => pathLine(this.view, points, 0xd55e00));
     this.element = this.#build();
     this.refresh();
-    this.view.fit(broadside(this.entries.filter((entry) => entry.layer?.visible).map(({ value }) => value)));
+    this.view.fit(
+      broadside(this.entries.filter((entry) => entry.layer?.visible).map(({ value }) => value)),
+    );
   }
 
   #entry(value, index) {
@@ -75,31 +84,64 @@ export class Explorer {
   refresh() {
     const visible = this.entries.filter((entry) => entry.layer?.visible);
     shareHeights(visible.map(({ layer }) => layer));
-    this.legends.replaceChildren(...legendsOf(visible.map(({ layer }) => layer), () => this.view.draw()));
+    this.legends.replaceChildren(
+      ...legendsOf(
+        visible.map(({ layer }) => layer),
+        () => this.view.draw(),
+      ),
+    );
     this.scanners.refresh(visible.map(({ value }) => value));
     this.view.draw();
   }
 
   #build() {
-    const list = h("ul", { class: "layers" }, this.entries.map((entry) => panelRow(entry)));
-    return h("div", { class: "explorer" },
+    const list = h(
+      "ul",
+      { class: "layers" },
+      this.entries.map((entry) => panelRow(entry)),
+    );
+    return h(
+      "div",
+      { class: "explorer" },
       h("div", { class: "tools", role: "toolbar", "aria-label": "3-D view" }, this.#tools()),
-      h("div", { class: "split" }, h("nav", { class: "panel", "aria-label": "values to show" }, list), this.view.element),
+      h(
+        "div",
+        { class: "split" },
+        h("nav", { class: "panel", "aria-label": "values to show" }, list),
+        this.view.element,
+      ),
       h("p", { class: "hint keys" }, keyHelp),
-      this.picks.element);
+      this.picks.element,
+    );
   }
 
   #tools() {
     const { view } = this;
     return [
       button("Show all", () => view.fit()),
-      this.scanners.marks.length > 0 && button("With scanners", () => view.fit(null, this.scanners.positions())),
+      this.scanners.marks.length > 0 &&
+        button("With scanners", () => view.fit(null, this.scanners.positions())),
       h("span", { class: "field" }, h("span", {}, "from")),
-      Object.entries(directions).map(([name, direction]) => button(name, () => view.fit(direction), { class: "small", "aria-label": `look from ${name}` })),
-      tick("grid", true, (shown) => { view.grid.setVisible(shown); view.draw(); }),
+      Object.entries(directions).map(([name, direction]) =>
+        button(name, () => view.fit(direction), {
+          class: "small",
+          "aria-label": `look from ${name}`,
+        }),
+      ),
+      tick("grid", true, (shown) => {
+        view.grid.setVisible(shown);
+        view.draw();
+      }),
       tick("scanners", true, (shown) => this.scanners.setVisible(shown)),
-      this.paths.length > 0 && tick("barycentre path", false, (shown) => { for (const line of this.paths) line.visible = shown; view.draw(); }),
-      tick("relief", true, (shown) => { view.dome.strength = shown ? 60 : 0; view.draw(); }),
+      this.paths.length > 0 &&
+        tick("barycentre path", false, (shown) => {
+          for (const line of this.paths) line.visible = shown;
+          view.draw();
+        }),
+      tick("relief", true, (shown) => {
+        view.dome.strength = shown ? 60 : 0;
+        view.draw();
+      }),
       button("Save picture", async () => {
         const bytes = Uint8Array.from(atob(view.picture().split(",")[1]), (c) => c.charCodeAt(0));
         download("velum.png", bytes, "image/png");

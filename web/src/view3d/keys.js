@@ -15,7 +15,8 @@ export const directions = {
   oblique: [1, -1.2, 0.7],
 };
 
-export const keyHelp = "Arrows turn, with Shift they move; plus and minus zoom; 0 shows all; 1 to 6 look from +x, \u2212x, +y, \u2212y, above, obliquely; Enter picks at the centre; Delete takes the last pick back.";
+export const keyHelp =
+  "Arrows turn, with Shift they move; plus and minus zoom; 0 shows all; 1 to 6 look from +x, \u2212x, +y, \u2212y, above, obliquely; Enter picks at the centre; Delete takes the last pick back.";
 
 /** What the keyboard does in a view. `view.onDelete` takes the last pick back. */
 export function bindKeys(view) {
@@ -50,7 +51,10 @@ function actionOf(view, event) {
 
 function turn(view, azimuth, polar) {
   const off = view.camera.position.clone().sub(view.controls.target);
-  const upright = new THREE.Quaternion().setFromUnitVectors(view.camera.up, new THREE.Vector3(0, 1, 0));
+  const upright = new THREE.Quaternion().setFromUnitVectors(
+    view.camera.up,
+    new THREE.Vector3(0, 1, 0),
+  );
   const sphere = new THREE.Spherical().setFromVector3(off.applyQuaternion(upright));
   sphere.theta -= azimuth;
   sphere.phi = THREE.MathUtils.clamp(sphere.phi + polar, 1e-3, Math.PI - 1e-3);
@@ -66,8 +70,12 @@ function zoom(view, factor) {
 
 function move(view, x, y) {
   const step = view.camera.position.distanceTo(view.controls.target) * 0.05;
-  const right = new THREE.Vector3().setFromMatrixColumn(view.camera.matrixWorld, 0).multiplyScalar(x * step);
-  const up = new THREE.Vector3().setFromMatrixColumn(view.camera.matrixWorld, 1).multiplyScalar(-y * step);
+  const right = new THREE.Vector3()
+    .setFromMatrixColumn(view.camera.matrixWorld, 0)
+    .multiplyScalar(x * step);
+  const up = new THREE.Vector3()
+    .setFromMatrixColumn(view.camera.matrixWorld, 1)
+    .multiplyScalar(-y * step);
   view.camera.position.add(right).add(up);
   view.controls.target.add(right).add(up);
   view.controls.update();

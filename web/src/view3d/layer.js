@@ -8,7 +8,7 @@ import { kHeight, kLabel, kNumber, kPlain, meshShader, pointShader } from "./sha
 const kNumberSteps = 65534;
 const kMany = 40000;
 const kTail = 0.01;
-const kWorth = 1.6;  // the full range is shown unless it is so many times that of 98 % of the points
+const kWorth = 1.6; // the full range is shown unless it is so many times that of 98 % of the points
 
 export class Layer {
   /** `base`: the point of the world that the view has as its origin [m]. */
@@ -24,7 +24,11 @@ export class Layer {
     this.object = this.#build();
     this.object.matrixAutoUpdate = false;
     const corner = value.corner();
-    this.object.matrix.makeTranslation(corner[0] - base[0], corner[1] - base[1], corner[2] - base[2]);
+    this.object.matrix.makeTranslation(
+      corner[0] - base[0],
+      corner[1] - base[1],
+      corner[2] - base[2],
+    );
     this.object.matrixWorldNeedsUpdate = true;
     this.colourBy("plain");
   }
@@ -35,8 +39,10 @@ export class Layer {
     this.geometry.setAttribute("position", new THREE.BufferAttribute(value.local(), 3));
     const { lo, hi } = value.positions;
     this.geometry.boundingSphere = new THREE.Sphere();
-    new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]))
-      .getBoundingSphere(this.geometry.boundingSphere);
+    new THREE.Box3(
+      new THREE.Vector3(),
+      new THREE.Vector3(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]),
+    ).getBoundingSphere(this.geometry.boundingSphere);
     this.uniforms = {
       source: { value: kPlain },
       affine: { value: new THREE.Vector2(1, 0) },
@@ -47,9 +53,14 @@ export class Layer {
       table: { value: textureOf(table("viridis"), 256, THREE.LinearFilter) },
     };
     const shader = value.isMesh() ? meshShader : pointShader;
-    this.material = new THREE.ShaderMaterial({ ...shader, uniforms: this.uniforms, side: THREE.DoubleSide });
+    this.material = new THREE.ShaderMaterial({
+      ...shader,
+      uniforms: this.uniforms,
+      side: THREE.DoubleSide,
+    });
     if (!value.isMesh()) {
-      if (value.shown > kMany) this.geometry.setIndex(new THREE.BufferAttribute(shuffled(value.shown), 1));
+      if (value.shown > kMany)
+        this.geometry.setIndex(new THREE.BufferAttribute(shuffled(value.shown), 1));
       return new THREE.Points(this.geometry, this.material);
     }
     this.geometry.setIndex(new THREE.BufferAttribute(value.indices(), 1));
@@ -59,12 +70,17 @@ export class Layer {
 
   /** Draws only this share of a large cloud, evenly taken. */
   setShare(share) {
-    if (!this.value.isMesh() && this.value.shown > kMany) this.geometry.setDrawRange(0, Math.max(kMany, Math.round(share * this.value.shown)));
+    if (!this.value.isMesh() && this.value.shown > kMany)
+      this.geometry.setDrawRange(0, Math.max(kMany, Math.round(share * this.value.shown)));
   }
 
   /** Colours to choose from: [key, text]. */
   colourings() {
-    return [["plain", "one colour"], ["height", "height (z)"], ...this.value.columns.map((column) => [`column:${column.name}`, column.name])];
+    return [
+      ["plain", "one colour"],
+      ["height", "height (z)"],
+      ...this.value.columns.map((column) => [`column:${column.name}`, column.name]),
+    ];
   }
 
   /** `key` as in colourings(). */
@@ -94,7 +110,12 @@ export class Layer {
 
   /** Columns that are off to either side of zero. */
   #isSigned() {
-    return this.column && this.column.lo < 0 && this.column.hi > 0 && /deviation|distance|signed|difference/.test(this.column.name);
+    return (
+      this.column &&
+      this.column.lo < 0 &&
+      this.column.hi > 0 &&
+      /deviation|distance|signed|difference/.test(this.column.name)
+    );
   }
 
   #useLabels() {
@@ -125,7 +146,8 @@ export class Layer {
     if (!this.column) return this.fullRange();
     const full = this.fullRange();
     const inner = [kTail, 1 - kTail].map((share) => this.value.quantile(this.column, share));
-    let [lo, hi] = (full[1] - full[0]) > kWorth * (inner[1] - inner[0]) && inner[1] > inner[0] ? inner : full;
+    let [lo, hi] =
+      full[1] - full[0] > kWorth * (inner[1] - inner[0]) && inner[1] > inner[0] ? inner : full;
     if (this.#isSigned()) hi = Math.max(-lo, hi);
     return [this.#isSigned() ? -hi : lo, hi];
   }
@@ -162,7 +184,10 @@ export class Layer {
     const width = Math.min(labels.length, 4096);
     const bytes = new Uint8Array(width * 4);
     for (let i = 0; i < width; ++i)
-      bytes.set([...labelColour(this.column, labels, i), this.hidden.has(labels[i].label) ? 0 : 255], 4 * i);
+      bytes.set(
+        [...labelColour(this.column, labels, i), this.hidden.has(labels[i].label) ? 0 : 255],
+        4 * i,
+      );
     this.setTable(bytes, width, THREE.NearestFilter);
   }
 
@@ -185,7 +210,10 @@ export class Layer {
   setEdges(shown) {
     if (shown && !this.edges) {
       const lines = new THREE.WireframeGeometry(this.geometry);
-      this.edges = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.35 }));
+      this.edges = new THREE.LineSegments(
+        lines,
+        new THREE.LineBasicMaterial({ color: 0x000000, transparent: true, opacity: 0.35 }),
+      );
       this.material.polygonOffset = true;
       this.material.polygonOffsetFactor = 1;
       this.material.polygonOffsetUnits = 1;

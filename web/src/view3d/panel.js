@@ -22,48 +22,88 @@ export function panelRow(entry) {
   const refresh = () => {
     box.checked = Boolean(entry.layer?.visible);
     details.hidden = !box.checked;
-    if (entry.layer) swatch.style.background = entry.layer.key === "plain" ? css(entry.layer.plain) : "var(--ramp)";
+    if (entry.layer)
+      swatch.style.background =
+        entry.layer.key === "plain" ? css(entry.layer.plain) : "var(--ramp)";
     if (box.checked && details.childElementCount === 0) details.append(...controls(entry, refresh));
   };
   refresh();
-  return h("li", { class: "layer" },
-    h("div", { class: "head" }, box, swatch,
-      h("label", { for: box.id }, h("b", {}, breakable(value.node)), h("span", {}, `.${value.output}`)),
-      h("small", {}, sizeOf(value))),
-    details);
+  return h(
+    "li",
+    { class: "layer" },
+    h(
+      "div",
+      { class: "head" },
+      box,
+      swatch,
+      h(
+        "label",
+        { for: box.id },
+        h("b", {}, breakable(value.node)),
+        h("span", {}, `.${value.output}`),
+      ),
+      h("small", {}, sizeOf(value)),
+    ),
+    details,
+  );
 }
 
 /** Long names break after an underscore. */
 const breakable = (name) => name.split(/(?<=_)/).flatMap((part) => [part, h("wbr")]);
 
 function sizeOf(value) {
-  const points = value.shown < value.count ? `${integer(value.shown)} of ${integer(value.count)}` : integer(value.count);
+  const points =
+    value.shown < value.count
+      ? `${integer(value.shown)} of ${integer(value.count)}`
+      : integer(value.count);
   return value.isMesh() ? `${integer(value.triangles.count)} triangles` : `${points} points`;
 }
 
 function controls(entry, refresh) {
   const { layer, value } = entry;
   const range = h("div", { class: "range" });
-  const fillRange = () => range.replaceChildren(...(layer.isNumeric() ? rangeFields(entry, fillRange) : plainField(entry, refresh)));
-  const colour = choice("colour", layer.colourings(), layer.key, (key) => {
-    layer.colourBy(key);
-    fillRange();
-    refresh();
-    entry.changed();
-  }, { "aria-label": `colour of ${value.id} by` });
+  const fillRange = () =>
+    range.replaceChildren(
+      ...(layer.isNumeric() ? rangeFields(entry, fillRange) : plainField(entry, refresh)),
+    );
+  const colour = choice(
+    "colour",
+    layer.colourings(),
+    layer.key,
+    (key) => {
+      layer.colourBy(key);
+      fillRange();
+      refresh();
+      entry.changed();
+    },
+    { "aria-label": `colour of ${value.id} by` },
+  );
   fillRange();
   const opacity = slider("opacity", 0.1, 1, 0.05, layer.opacity, (x) => {
     layer.setOpacity(x);
     entry.changed();
   });
   const last = value.isMesh()
-    ? tick("edges", false, (shown) => { layer.setEdges(shown); entry.changed(); })
-    : slider("size", 1, 10, 0.5, layer.size, (x) => { layer.size = x; entry.changed(); });
+    ? tick("edges", false, (shown) => {
+        layer.setEdges(shown);
+        entry.changed();
+      })
+    : slider("size", 1, 10, 0.5, layer.size, (x) => {
+        layer.size = x;
+        entry.changed();
+      });
   return [colour, range, h("div", { class: "pair" }, opacity, last)];
 }
 
 function slider(label, min, max, step, value, onInput) {
-  const input = h("input", { type: "range", min, max, step, value, oninput: () => onInput(Number(input.value)) });
+  const input = h("input", {
+    type: "range",
+    min,
+    max,
+    step,
+    value,
+    oninput: () => onInput(Number(input.value)),
+  });
   return h("label", { class: "field" }, h("span", {}, label), input);
 }
 
@@ -72,7 +112,9 @@ function plainField(entry, refresh) {
   if (layer.key !== "plain") return [];
   const hex = `#${layer.plain.map((c) => c.toString(16).padStart(2, "0")).join("")}`;
   const input = h("input", {
-    type: "color", value: hex, "aria-label": `colour of ${entry.value.id}`,
+    type: "color",
+    value: hex,
+    "aria-label": `colour of ${entry.value.id}`,
     oninput: () => {
       layer.setPlain([1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16)));
       refresh();
@@ -90,18 +132,43 @@ function rangeFields(entry, refill) {
   const scale = scaleFor(unit, Math.max(Math.abs(lo), Math.abs(hi)));
   const field = (label, value, set) => {
     const input = h("input", {
-      type: "number", step: "any", value: Number((value * scale.factor).toPrecision(5)),
+      type: "number",
+      step: "any",
+      value: Number((value * scale.factor).toPrecision(5)),
       onchange: () => {
         if (Number.isFinite(input.valueAsNumber)) set(input.valueAsNumber / scale.factor);
         entry.changed();
       },
     });
-    return h("label", { class: "field" }, h("span", {}, label), input, scale.unit && h("small", {}, scale.unit));
+    return h(
+      "label",
+      { class: "field" },
+      h("span", {}, label),
+      input,
+      scale.unit && h("small", {}, scale.unit),
+    );
   };
   return [
     field("from", lo, (x) => layer.choose(x, layer.range[1])),
     field("to", hi, (x) => layer.choose(layer.range[0], x)),
-    button("all", () => { layer.choose(...layer.fullRange()); refill(); entry.changed(); }, { class: "small", title: "from the least to the greatest value" }),
-    choice("map", mapNames.map((name) => [name, name]), layer.map, (map) => { layer.setMap(map); refill(); entry.changed(); }),
+    button(
+      "all",
+      () => {
+        layer.choose(...layer.fullRange());
+        refill();
+        entry.changed();
+      },
+      { class: "small", title: "from the least to the greatest value" },
+    ),
+    choice(
+      "map",
+      mapNames.map((name) => [name, name]),
+      layer.map,
+      (map) => {
+        layer.setMap(map);
+        refill();
+        entry.changed();
+      },
+    ),
   ];
 }

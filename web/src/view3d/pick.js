@@ -4,8 +4,8 @@
 // index: half a million take some milliseconds.
 import * as THREE from "three";
 
-const kReach = 12;  // pixels around the cursor in which a point can be picked
-const kFlush = 0.005;  // of the distance: a point this little behind a surface lies on it
+const kReach = 12; // pixels around the cursor in which a point can be picked
+const kFlush = 0.005; // of the distance: a point this little behind a surface lies on it
 
 /**
  * The drawn point under the cursor: of those whose dot covers it the foremost, which is the one that is
@@ -27,17 +27,22 @@ export function pick(layers, camera, x, y, width, height) {
 }
 
 function nearestOf(layer, camera, x, y, width, height, limit, best) {
-  const matrix = new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
+  const matrix = new THREE.Matrix4()
+    .multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
     .multiply(layer.object.matrix).elements;
   const local = layer.value.local();
   const radius = layer.size / 2;
   for (let i = 0, p = 0; p < local.length; ++i, p += 3) {
-    const a = local[p], b = local[p + 1], c = local[p + 2];
+    const a = local[p],
+      b = local[p + 1],
+      c = local[p + 2];
     const w = matrix[3] * a + matrix[7] * b + matrix[11] * c + matrix[15];
     if (w <= camera.near || w > limit) continue;
-    const dx = ((matrix[0] * a + matrix[4] * b + matrix[8] * c + matrix[12]) / w + 1) * 0.5 * width - x;
+    const dx =
+      ((matrix[0] * a + matrix[4] * b + matrix[8] * c + matrix[12]) / w + 1) * 0.5 * width - x;
     if (dx > kReach || dx < -kReach) continue;
-    const dy = (1 - (matrix[1] * a + matrix[5] * b + matrix[9] * c + matrix[13]) / w) * 0.5 * height - y;
+    const dy =
+      (1 - (matrix[1] * a + matrix[5] * b + matrix[9] * c + matrix[13]) / w) * 0.5 * height - y;
     const off = Math.hypot(dx, dy);
     if (off > kReach) continue;
     const covers = off <= radius;
@@ -72,6 +77,7 @@ function nearestSurface(layers, camera, x, y, width, height) {
 function nearestCorner(layer, hit) {
   const local = layer.value.local();
   const at = layer.object.worldToLocal(hit.point.clone());
-  const off = (i) => Math.hypot(local[3 * i] - at.x, local[3 * i + 1] - at.y, local[3 * i + 2] - at.z);
+  const off = (i) =>
+    Math.hypot(local[3 * i] - at.x, local[3 * i + 1] - at.y, local[3 * i + 2] - at.z);
   return [hit.face.a, hit.face.b, hit.face.c].sort((i, j) => off(i) - off(j))[0];
 }

@@ -42,7 +42,9 @@ export class Scanners {
 
 /** A line through points of the world, such as the path of a barycentre. */
 export function pathLine(view, points, colour) {
-  const geometry = new THREE.BufferGeometry().setFromPoints(points.map((point) => view.relative(point)));
+  const geometry = new THREE.BufferGeometry().setFromPoints(
+    points.map((point) => view.relative(point)),
+  );
   const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
   line.frustumCulled = false;
   line.visible = false;

@@ -2,7 +2,15 @@
 // SPDX-License-Identifier: MIT
 
 // Columns that say most about a value, first one first.
-const kTelling = [/^deviation/, /^displacement/, /^distance/, /^cluster$/, /^grade$/, /^curvature$/, /^label$/];
+const kTelling = [
+  /^deviation/,
+  /^displacement/,
+  /^distance/,
+  /^cluster$/,
+  /^grade$/,
+  /^curvature$/,
+  /^label$/,
+];
 
 /** The colouring by the column that says most about the value; null where none does. */
 export function telling(value) {

@@ -37,13 +37,20 @@ export function picksToml(picks, nodes = []) {
   const groups = [...grouped(picks)];
   if (groups.length !== 2 || groups[0][1].length !== groups[1][1].length) return null;
   const ids = groups.map(([id]) => id);
-  const taker = nodes.find((node) => ids.includes(node.in?.source?.from) && ids.includes(node.in?.target?.from) && node.in.source.from !== node.in.target.from);
+  const taker = nodes.find(
+    (node) =>
+      ids.includes(node.in?.source?.from) &&
+      ids.includes(node.in?.target?.from) &&
+      node.in.source.from !== node.in.target.from,
+  );
   if (taker && taker.in.source.from === ids[1]) groups.reverse();
   const [sources, targets] = groups.map(([, list]) => list);
   return [
     `# in the node ${taker ? `[node.${key(taker.name)}]` : "that uses registration.planes"}: source ${groups[0][0]}, target ${groups[1][0]}`,
     `picks = [`,
-    ...sources.map((source, i) => `  { source = ${place(source.point)}, target = ${place(targets[i].point)} },`),
+    ...sources.map(
+      (source, i) => `  { source = ${place(source.point)}, target = ${place(targets[i].point)} },`,
+    ),
     `]`,
   ].join("\n");
 }
@@ -51,8 +58,12 @@ export function picksToml(picks, nodes = []) {
 /** The id of the cloud itself, or of that which its node took, or a node before; null without one. */
 function cloudOf(id, type, nodes, depth = 0) {
   if (type === "cloud") return id;
-  const node = nodes.find((one) => id.startsWith(`${one.name}.`) && !id.slice(one.name.length + 1).includes("."));
-  const wires = Object.values(node?.in ?? {}).flat().filter((wire) => wire?.from);
+  const node = nodes.find(
+    (one) => id.startsWith(`${one.name}.`) && !id.slice(one.name.length + 1).includes("."),
+  );
+  const wires = Object.values(node?.in ?? {})
+    .flat()
+    .filter((wire) => wire?.from);
   const next = wires.find((wire) => wire.type === "cloud") ?? wires[0];
   return next && depth < nodes.length ? cloudOf(next.from, next.type, nodes, depth + 1) : null;
 }

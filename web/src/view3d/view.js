@@ -13,7 +13,7 @@ import { Marks } from "./marks.js";
 import { pick } from "./pick.js";
 
 const kManyPoints = 150000;
-const kStill = 4;  // pixels: a pointer that moves less has clicked
+const kStill = 4; // pixels: a pointer that moves less has clicked
 
 export class View {
   /** `base`: the point of the world that is the view's origin [m]; views with linked cameras share it. */
@@ -21,9 +21,19 @@ export class View {
     this.base = base;
     this.layers = [];
     this.listeners = { pick: [], camera: [] };
-    this.canvas = h("canvas", { tabindex: "0", role: "application", "aria-label": label, "aria-roledescription": "3-D view" });
+    this.canvas = h("canvas", {
+      tabindex: "0",
+      role: "application",
+      "aria-label": label,
+      "aria-roledescription": "3-D view",
+    });
     this.element = h("div", { class: "view" }, this.canvas);
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, alpha: true, antialias: false, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({
+      canvas: this.canvas,
+      alpha: true,
+      antialias: false,
+      preserveDrawingBuffer: true,
+    });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setClearColor(0x000000, 0);
     this.renderer.autoClear = false;
@@ -87,11 +97,13 @@ export class View {
    * where it looks now.
    */
   fit(direction, more = []) {
-    const box = this.box() ?? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
+    const box =
+      this.box() ?? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1));
     for (const point of more) box.expandByPoint(this.relative(point));
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     this.radius = Math.max(sphere.radius, 1e-6);
-    const towards = direction ? new THREE.Vector3(...direction).normalize()
+    const towards = direction
+      ? new THREE.Vector3(...direction).normalize()
       : this.camera.position.clone().sub(this.controls.target).normalize();
     if (towards.lengthSq() === 0) towards.set(1, -1, 0.5).normalize();
     const half = THREE.MathUtils.degToRad(this.camera.fov / 2);
@@ -114,7 +126,11 @@ export class View {
   }
 
   pose() {
-    return { position: this.camera.position.clone(), target: this.controls.target.clone(), radius: this.radius };
+    return {
+      position: this.camera.position.clone(),
+      target: this.controls.target.clone(),
+      radius: this.radius,
+    };
   }
 
   /** Takes another view's camera without telling the listeners. */
@@ -172,14 +188,24 @@ export class View {
   /** Smooth edges are seen on meshes and lines; in large clouds they cost much and show little. */
   #worthSmoothing() {
     const shown = this.layers.filter((layer) => layer.visible);
-    const points = shown.reduce((sum, layer) => sum + (layer.value.isMesh() ? 0 : layer.value.shown), 0);
+    const points = shown.reduce(
+      (sum, layer) => sum + (layer.value.isMesh() ? 0 : layer.value.shown),
+      0,
+    );
     return points < kManyPoints;
   }
 
   /** Picks at pixel (x, y) of the view and tells the listeners. Returns what they were told. */
   pickAt(x, y) {
     this.camera.updateMatrixWorld();
-    const found = pick(this.layers, this.camera, x, y, this.element.clientWidth, this.element.clientHeight);
+    const found = pick(
+      this.layers,
+      this.camera,
+      x,
+      y,
+      this.element.clientWidth,
+      this.element.clientHeight,
+    );
     for (const listener of this.listeners.pick) listener(found);
     return found;
   }
@@ -187,13 +213,20 @@ export class View {
   /** Where a point of the world is on the view, in pixels. */
   project(point) {
     const at = this.relative(point).project(this.camera);
-    return { x: ((at.x + 1) / 2) * this.element.clientWidth, y: ((1 - at.y) / 2) * this.element.clientHeight, visible: at.z < 1 };
+    return {
+      x: ((at.x + 1) / 2) * this.element.clientWidth,
+      y: ((1 - at.y) / 2) * this.element.clientHeight,
+      visible: at.z < 1,
+    };
   }
 
   #bindPointer() {
     let start = null;
     this.canvas.addEventListener("pointerdown", (event) => {
-      start = event.button === 0 && !event.shiftKey && !event.ctrlKey ? { x: event.clientX, y: event.clientY } : null;
+      start =
+        event.button === 0 && !event.shiftKey && !event.ctrlKey
+          ? { x: event.clientX, y: event.clientY }
+          : null;
     });
     this.canvas.addEventListener("pointerup", (event) => {
       if (!start || Math.hypot(event.clientX - start.x, event.clientY - start.y) > kStill) return;
@@ -202,7 +235,14 @@ export class View {
     });
     this.canvas.addEventListener("dblclick", (event) => {
       const box = this.canvas.getBoundingClientRect();
-      const found = pick(this.layers, this.camera, event.clientX - box.left, event.clientY - box.top, box.width, box.height);
+      const found = pick(
+        this.layers,
+        this.camera,
+        event.clientX - box.left,
+        event.clientY - box.top,
+        box.width,
+        box.height,
+      );
       if (!found) return;
       this.controls.target.copy(this.relative(found.layer.value.point(found.index)));
       this.controls.update();
