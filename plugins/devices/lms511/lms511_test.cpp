@@ -134,3 +134,11 @@ TEST_CASE("an interrupted scan ends at once") {
   peer.start();
   CHECK_THROWS_AS(scanner(peer, 5).cancelled().run(), velum::Cancelled);
 }
+
+TEST_CASE("devices.lms511 keeps the promises of every stage") {
+  Peer peer;
+  peer.start();
+  for (const auto& fault : velum::test::conformance(
+           "devices.lms511", {{"address", peer.address()}, {"encoding", "cola_b"}, {"lines", "2"}}))
+    FAIL_CHECK(fault);
+}

@@ -187,3 +187,15 @@ TEST_CASE("the live view shows rates, ranges and the last line from the side") {
   CHECK(std::count(picture.begin(), picture.end(), '\n') == 16);
   CHECK(std::count(picture.begin(), picture.end(), '#') > 30);
 }
+
+TEST_CASE("devices.recorder keeps the promises of every stage") {
+  const Folder folder;
+  Peer peer;
+  peer.start();
+  for (const auto& fault :
+       velum::test::conformance("devices.recorder", {{"address", peer.address()},
+                                                     {"encoding", "cola_b"},
+                                                     {"lines", "2"},
+                                                     {"file", folder.file("a.vrec")}}))
+    FAIL_CHECK(fault);
+}
