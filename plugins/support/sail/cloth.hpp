@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bspline/evaluate.hpp"
+#include "sail/rim.hpp"
 #include "sail/section.hpp"
 
 namespace velum::sail {
