@@ -62,7 +62,7 @@ std::optional<Vector3d> from_shape(const Eigen::Matrix3Xd& points) {
   const Eigen::Matrix3Xd centred = points.colwise() - mean;
   const Eigen::Matrix3d covariance = centred * centred.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  const Vector3d spread = solver.eigenvalues();
+  const Vector3d& spread = solver.eigenvalues();
   Vector3d normal = solver.eigenvectors().col(0);
   if (spread[0] > 0.25 * spread[1] || normal.head<2>().norm() < 0.5) return std::nullopt;
   // Both sides are as good: the one nearer to the usual view.
