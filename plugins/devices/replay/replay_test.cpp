@@ -182,6 +182,7 @@ TEST_CASE("a real scanner turned by half a turn becomes a room") {
   const Cloud& cloud = outcome.cloud();
   CHECK(outcome.measure("lines") == 883);
   CHECK(outcome.measure("lost_lines") == 116);
+  CHECK(outcome.measure("malformed") == 0);
   CHECK(outcome.measure("span") == Approx(19.992).margin(0.001));
   CHECK(cloud.size() == 503773 - 5486);
   const Level level = fit_level(cloud, 2.308, 0.03);

@@ -16,9 +16,9 @@ struct Line {
   std::vector<Channel> ranges;     ///< one an echo, nearest first
   std::vector<Channel> remission;  ///< as many or none
   std::int32_t number = 0;         ///< revolutions since the first line; jumps where some are lost
-  std::uint32_t connection = 0;
+  std::uint32_t clock = 0;         ///< another one after a new connection or a restart
   std::int64_t arrival = kNoTime;  ///< [ns]
-  std::int64_t start = 0;          ///< device clock, unwrapped within its connection [us]
+  std::int64_t start = 0;          ///< device clock, unwrapped [us]
   std::int64_t sent = 0;           ///< the same clock
   double frequency = 25.0;         ///< [Hz]
   std::optional<std::uint32_t> encoder;
@@ -65,6 +65,7 @@ class LineGatherer {
  private:
   bool add_scan(Scan scan, std::int64_t arrival);
   [[nodiscard]] bool fits(const Scan& scan) const;
+  [[nodiscard]] bool follows(const Scan& scan) const;
   std::int64_t unwrap(std::uint32_t clock);
 
   std::vector<Line> lines_;
@@ -75,9 +76,11 @@ class LineGatherer {
   std::uint32_t serial_ = 0;
   std::int32_t number_ = 0;
   bool gap_open_ = false;
-  bool fresh_ = true;  ///< no scan yet on this connection
+  bool doubted_ = false;  ///< the scan before did not follow the last good one
+  bool fresh_ = true;     ///< no scan yet on this connection
   std::uint16_t counter_ = 0;
   std::int64_t clock_ = 0;
+  std::uint32_t clocks_ = 0;
 };
 
 }  // namespace velum::lms511

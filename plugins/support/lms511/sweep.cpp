@@ -14,7 +14,7 @@ namespace {
 constexpr double kNanosecond = 1e-9;
 constexpr double kMicrosecond = 1e-6;
 
-// When the device clock of each connection was 0, on the clock of arrivals [s]. The telegram that
+// When each device clock was 0, on the clock of arrivals [s]. The telegram that
 // took the least time over the network says it best.
 class Clock {
  public:
@@ -23,12 +23,12 @@ class Clock {
       if (line.arrival == kNoTime) continue;
       const double zero = kNanosecond * static_cast<double>(line.arrival) -
                           kMicrosecond * static_cast<double>(line.sent);
-      const auto [at, fresh] = zeros_.try_emplace(line.connection, zero);
+      const auto [at, fresh] = zeros_.try_emplace(line.clock, zero);
       if (!fresh) at->second = std::min(at->second, zero);
     }
   }
   [[nodiscard]] double start(const Line& line) const {
-    const auto zero = zeros_.find(line.connection);
+    const auto zero = zeros_.find(line.clock);
     return kMicrosecond * static_cast<double>(line.start) +
            (zero == zeros_.end() ? 0.0 : zero->second);
   }

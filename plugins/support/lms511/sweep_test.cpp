@@ -210,9 +210,39 @@ TEST_CASE("lost, repeated and foreign scans are counted, and connections are not
   CHECK(add(fresh));
   CHECK(lines.counts().lost == 4);
   CHECK(lines.lines().back().number == 8);
-  CHECK(lines.lines().back().connection == 1);
+  CHECK(lines.lines().back().clock == 1);
   CHECK(lines.lines().back().start == 17);
   CHECK(lines.gaps() == std::vector<std::string>{"no data at 2.000 s, connected again at 3.000 s"});
+}
+
+TEST_CASE("a counter or a clock that changed on the way costs its scan, a restart costs one") {
+  const RoomScan scan;
+  LineGatherer lines;
+  const auto add = [&](const Scan& one) {
+    const std::string payload = encode_scan(one, Dialect::ascii);
+    return lines.add({Event::ascii_telegram, 0, payload});
+  };
+  CHECK(add(scan.line(1)));
+  Scan damaged = scan.line(2);
+  damaged.scan_counter ^= 0x40U;
+  CHECK_FALSE(add(damaged));
+  CHECK(add(scan.line(3)));
+  damaged = scan.line(4);
+  damaged.start_time ^= 0x100000U;
+  CHECK_FALSE(add(damaged));
+  CHECK(add(scan.line(5)));
+  CHECK(add(scan.line(90)));
+  CHECK(lines.counts().malformed == 2);
+  CHECK(lines.counts().lost == 2 + 84);
+  Scan restarted = scan.line(0);
+  for (std::uint16_t i = 0; i < 5; ++i) {
+    restarted.scan_counter = i;
+    restarted.start_time = 5000 + 40000U * i;
+    restarted.send_time = restarted.start_time + 40500;
+    CHECK(add(restarted) == (i > 0));
+  }
+  CHECK(lines.counts().malformed == 3);
+  CHECK(lines.counts().lost == 86);
 }
 
 TEST_CASE("several echoes become points of their own, or the one that is asked for") {
