@@ -7,7 +7,8 @@ set -eu
 build="g++ cmake make ninja-build ccache mold git python3 libeigen3-dev libfmt-dev libboost-dev
   libboost-filesystem-dev libcli11-dev nlohmann-json3-dev libtbb-dev libnanoflann-dev libxxhash-dev libzstd-dev
   libtomlplusplus-dev libfast-float-dev liblzf-dev libpng-dev libcgal-dev libpcl-dev
-  libopenmesh-dev libocct-data-exchange-dev libocct-modeling-algorithms-dev catch2 locales"
+  libopenmesh-dev libocct-data-exchange-dev libocct-modeling-algorithms-dev catch2 locales
+  slurm-wlm munge"
 check="clang clang-format clang-tidy libclang-rt-14-dev dpkg-dev"
 bench="libopen3d-dev"
 

@@ -11,6 +11,8 @@
 #include "console.hpp"
 #include "graph/graph.hpp"
 #include "plugins/registry.hpp"
+#include "run/run.hpp"
+#include "study/estimate.hpp"
 #include "study/plan.hpp"
 
 namespace velum::app {
@@ -34,8 +36,10 @@ void check(const Options& options) {
   print(fmt::format("{}: no mistakes, {} node{}\n", options.graph.string(), nodes,
                     nodes == 1 ? "" : "s"));
   if (plan)
-    print(fmt::format("study: {} variants x {} repeats = {} cells\n", plan->variants.size(),
-                      plan->study.seeds.size(), plan->cells()));
+    print("study: " +
+          study::outlook(*plan, options.graph.stem().string() + ".out",
+                         run::graph_name(options.graph), 0) +
+          "\n");
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
   add_run(app);
   add_check(app);
   add_study(app);
+  add_study_task(app);
   add_rerun(app);
   add_report(app);
   add_list(app);

@@ -17,6 +17,7 @@
 #include "reporters.hpp"
 #include "run/output_folder.hpp"
 #include "run/signals.hpp"
+#include "study/folder.hpp"
 
 namespace velum::app {
 namespace {
@@ -55,6 +56,7 @@ run::RunOptions run_options(const Options& options) {
     result.cache = options.cache.empty() ? run::default_cache_folder() : options.cache;
   result.cache_limit = options.cache_size;
   result.cancel = &run::stop_requested();
+  result.others = study::names_of_study(options.out, run::graph_name(options.graph));
   return result;
 }
 

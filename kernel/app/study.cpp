@@ -11,13 +11,17 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "graph/settings.hpp"
+#include "graph/study_slurm.hpp"
 #include "graph/units.hpp"
 #include "report/study_report.hpp"
 #include "run/cache.hpp"
 #include "run/output_folder.hpp"
 #include "run/run.hpp"
 #include "run/signals.hpp"
+#include "study/estimate.hpp"
+#include "study/slurm_queue.hpp"
 #include "study/tables.hpp"
+#include "velum/files.hpp"
 
 namespace velum::app {
 namespace {
@@ -25,6 +29,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   velum study radii.toml                      every variant of its [study]
   velum study radii.toml --resume             go on after a kill or Ctrl-C
+  velum study radii.toml --engine slurm --slurm partition=short
   velum study radii.toml --jobs 1 --timeout "2 min" --memory "4 GB"
 
 Exit status: 0, or 3 when the study is complete but some variants failed.)";
@@ -40,6 +45,8 @@ struct Options {
   bool no_cache = false;
   std::string timeout;
   std::string memory;
+  std::string engine = "local";
+  std::vector<std::string> slurm;  ///< KEY=VALUE
 };
 
 double seconds_of(const std::string& text) {
@@ -54,6 +61,12 @@ std::uint64_t bytes_of(const std::string& text) {
   if (const auto bytes = graph::parse_memory(text)) return *bytes;
   throw Error(Fault::graph, fmt::format("--memory '{}' is no amount of memory", text))
       .hint("write --memory \"2 GB\"");
+}
+
+graph::Slurm slurm_of(const Options& options) {
+  graph::Slurm slurm = graph::slurm_in(std::string(FileContent(options.graph).text()));
+  for (const std::string& setting : options.slurm) graph::set_slurm(setting, slurm);
+  return slurm;
 }
 
 /// One line for each cell that ends.
@@ -72,7 +85,7 @@ class Progress {
     const double each =
         std::chrono::duration<double>(Clock::now() - began_).count() / static_cast<double>(ended_);
     const double left = each * static_cast<double>(plan.cells() - done);
-    if (left > 5.0) line += fmt::format(", about {:.0f} s left", left);
+    if (left > 5.0) line += ", about " + study::rough_time(left) + " left";
     complain(line + "\n");
   }
 
@@ -101,12 +114,20 @@ int leave_report(const std::filesystem::path& out, plugins::Registry& registry) 
   return 0;
 }
 
-int report(const study::StudyResult& result, const std::filesystem::path& out) {
-  if (!result.finished) {
-    complain(fmt::format("interrupted: {} of {} cells are kept in {}; --resume goes on\n",
-                         result.done, result.plan.cells(), out.string()));
-    return run::kInterrupted;
-  }
+int report_interrupted(const study::StudyResult& result, const study::StudyOptions& options) {
+  complain(fmt::format("interrupted: {} of {} cells are kept in {}; --resume goes on\n",
+                       result.done, result.plan.cells(), options.out.string()));
+  if (options.slurm)
+    complain(
+        fmt::format("Slurm's tasks that wait or run go on: --engine slurm --resume takes them "
+                    "up, `scancel --name={}` cancels them\n",
+                    study::slurm_name(options.out)));
+  return run::kInterrupted;
+}
+
+int report(const study::StudyResult& result, const study::StudyOptions& options) {
+  const std::filesystem::path& out = options.out;
+  if (!result.finished) return report_interrupted(result, options);
   print(study::text(result.plan, result.comparison));
   for (const std::string& name : result.comparison.missing)
     complain(fmt::format("warning: no cell has the measure '{}'\n", name));
@@ -137,11 +158,18 @@ void study_command(Options options) {
     complain(graph::format(loaded.diagnostics));
     throw Exit{graph::exit_status(loaded.diagnostics)};
   }
+  if (options.engine == "slurm") options.study.slurm = slurm_of(options);
   run::catch_signals();
   options.study.cancel = &run::stop_requested();
+  if (loaded.graph->study && !options.study.resume && !options.study.slurm)
+    complain("study: " +
+             study::outlook(study::make_plan(*loaded.graph->study), options.study.out,
+                            run::graph_name(options.graph), options.study.jobs) +
+             "\n");
+  options.study.note = [](const std::string& line) { complain("slurm: " + line + "\n"); };
   const study::StudyResult result =
       study::run_study(*loaded.graph, registry, options.study, Progress());
-  int status = report(result, options.study.out);
+  int status = report(result, options.study);
   if (result.finished) {
     const int report_status = leave_report(options.study.out, registry);
     if (report_status != 0) status = report_status;
@@ -177,7 +205,20 @@ void add_study(CLI::App& app) {
                     ->type_name("DIR");
   command->add_flag("--no-cache", options->no_cache, "every cell runs all of its nodes")
       ->excludes(cache);
-  command->add_flag("--resume", study.resume, "run only the cells that have not ended yet");
+  auto* resume =
+      command->add_flag("--resume", study.resume, "run only the cells that have not ended yet");
+  command->add_flag("--retry", study.retry, "run again what is not ok, too")->needs(resume);
+  auto* engine =
+      command
+          ->add_option("--engine", options->engine, "where the cells run: local (default) or slurm")
+          ->type_name("NAME")
+          ->check(CLI::IsMember({"local", "slurm"}));
+  command
+      ->add_option("--slurm", options->slurm,
+                   "KEY=VALUE of [study.slurm], as partition=short or time=\"2 h\"")
+      ->type_name("TEXT")
+      ->allow_extra_args(false)
+      ->needs(engine);
   command->callback([options] { study_command(*options); });
 }
 

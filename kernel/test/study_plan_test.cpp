@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "study/plan.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "graph/study_slurm.hpp"
 #include "graph_support.hpp"
 
 using velum::study::Plan;
@@ -125,15 +127,13 @@ TEST_CASE("ranges, linear and logarithmic, with units") {
 
 TEST_CASE("each variant has the reference that is like it but for the reference's labels") {
   const Plan made = plan("reference = { a = 1 }" + kTwo);
-  CHECK(made.reference_of(3) == 0);
-  CHECK(made.reference_of(5) == 2);
-  CHECK(made.reference_of(1) == 1);
-  CHECK(plan(kTwo).reference_of(0) == 6);  // none
+  CHECK(made.references() == std::vector<std::size_t>{0, 1, 2, 0, 1, 2});
+  CHECK(plan(kTwo).references().front() == 6);  // none
   const std::string zipped =
       "[[study.vary]]\ntitle = \"a\"\nzip = \"z\"\nparam = \"down.size\"\n"
       "values = [1, 2]\n[[study.vary]]\nzip = \"z\"\n"
       "param = \"mesh.max_edge\"\nvalues = [8, 9]\n";
-  CHECK(plan("reference = { a = 1 }\n" + zipped).reference_of(1) == 0);
+  CHECK(plan("reference = { a = 1 }\n" + zipped).references() == std::vector<std::size_t>{0, 0});
   CHECK_THROWS_WITH(plan("reference = { a = 1 }\nexclude = [{ a = 1 }]" + kTwo),
                     "no variant has the labels of 'reference'");
 }
@@ -223,4 +223,57 @@ TEST_CASE("E0601: what cannot be a study") {
               "[[study.vary]]\nparam = \"down.size\"\nvalues = [2]\n")
             .front()
             .starts_with("two axes are called 'down.size'"));
+  // The later one would win without a word.
+  CHECK(wrong("[[study.vary]]\ntitle = \"a\"\nparam = \"down.size\"\nvalues = [1]\n"
+              "[[study.vary]]\ntitle = \"b\"\nrows = [{ \"down.size\" = 2 }]\n") ==
+        Lines{"axis 'a' and axis 'b' both vary 'down.size' | take one of them away"});
+  CHECK(wrong("[[study.vary]]\ntitle = \"a\"\nnode = \"down\"\n"
+              "alternatives = [{ use = \"resampling.voxel_grid\", size = 3 }]\n"
+              "[[study.vary]]\ntitle = \"b\"\nparam = \"down.size\"\nvalues = [1]\n") ==
+        Lines{"'down.size' is varied by axis 'b': this value would not be used | take it away"});
+  // Columns of study.csv.
+  CHECK(wrong("[[study.vary]]\ntitle = \"seed\"\nparam = \"down.size\"\nvalues = [1]\n").front() ==
+        "an axis cannot be called 'seed': study.csv has that column | give it another title");
+}
+
+TEST_CASE("E0601 says where: the line of the second axis") {
+  const auto loaded = velum::test::load_text(
+      kGraph +
+      "[[study.vary]]\ntitle = \"a\"\nparam = \"down.size\"\nvalues = [1]\n"
+      "[[study.vary]]\ntitle = \"b\"\nparam = \"down.size\"\nvalues = [2]\n");
+  REQUIRE(loaded.diagnostics.size() == 1);
+  const auto lines = std::count(kGraph.begin(), kGraph.end(), '\n');
+  CHECK(loaded.diagnostics.front().where.begin.line == lines + 5);
+}
+
+TEST_CASE("control characters in labels are escaped, equal labels numbered") {
+  const Plan made = plan(
+      "[[study.vary]]\ntitle = \"a\\tb\"\nrows = [{ title = \"x\\n\\u001b[2J\", "
+      "\"down.size\" = 1 }, { title = \"y\", \"down.size\" = 2 }, "
+      "{ title = \"y\", \"down.size\" = 3 }]\n");
+  CHECK(made.study.axes.front().name == "a\\x09b");
+  CHECK(labels(made) == Lines{"x\\x0a\\x1b[2J", "y", "y (2)"});
+}
+
+TEST_CASE("what Slurm is asked for") {
+  const auto slurm = velum::graph::slurm_in(
+      kGraph +
+      "[study.slurm]\npartition = \"short\"\ntime = \"2 h\"\nmemory = \"4 GB\"\n"
+      "cpus = 2\ncells = 20\narray = 500\noptions = [\"--qos=low\"]\n");
+  CHECK(slurm.partition == "short");
+  CHECK(slurm.seconds == 7200.0);
+  CHECK(slurm.bytes == 4'000'000'000);
+  CHECK(slurm.cpus == 2);
+  CHECK(slurm.cells == 20);
+  CHECK(slurm.array == 500);
+  CHECK(slurm.options == Lines{"--qos=low"});
+  CHECK(mistakes(kGraph + "[study.slurm]\npartion = \"a\"\ncells = 0\noptions = [3]\n").size() ==
+        3);
+  velum::graph::Slurm changed = slurm;
+  velum::graph::set_slurm("partition=long", changed);
+  velum::graph::set_slurm("time=30 min", changed);
+  CHECK(changed.partition == "long");
+  CHECK(changed.seconds == 1800.0);
+  CHECK_THROWS_WITH(velum::graph::set_slurm("cells=many", changed), "'cells' must be an integer");
+  CHECK_THROWS_WITH(velum::graph::set_slurm("cells", changed), "'cells' is no setting");
 }

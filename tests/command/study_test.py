@@ -3,6 +3,7 @@
 """`velum study`: every variant a cell of its own, whatever happens in it."""
 import csv
 import json
+import os
 import random
 import signal
 import subprocess
@@ -10,6 +11,8 @@ import time
 import unittest
 
 from support import CommandTest, VELUM
+
+KILLS = int(os.environ.get("VELUM_KILLS", "4"))
 
 GRAPH = """
 units = "m"
@@ -91,10 +94,16 @@ param = "start.count"
 values = [4, 5]
 """)
         out, error = self.velum("check", "g.toml")
-        self.assertIn("6 variants x 6 repeats = 36 cells", out)
+        self.assertIn("6 variants x 6 repeats = 36 cells; no earlier run", out)
+        self.velum("run", "g.toml")
+        out, error = self.velum("check", "g.toml")
+        self.assertRegex(out, r"36 cells, about \d+ s with \d+ at a time, .* the run before")
         out, error = self.velum("study", "g.toml")
         self.assertIn("[36/36]", error)
         self.assertEqual(len(self.cells()), 36)
+        # An axis and a measure without a unit of one name are two columns.
+        self.assertEqual({cell["start.count"] for cell in self.cells()}, {"4", "5"})
+        self.assertEqual({cell["start.count []"] for cell in self.cells()}, {"4", "5"})
         study = self.study()
         self.assertEqual([axis["name"] for axis in study["axes"]], ["moved.by", "start.count"])
         self.assertEqual({variant["data"] for variant in study["variants"]}, {0, 1})
@@ -107,6 +116,13 @@ values = [4, 5]
                          {"reference": "v1", "pairs": 6, "mean": 1.0, "p": 2 * 4 / 2**6})
         self.assertEqual(moved["rank"], 2)
         self.assertIn("v1", out)
+        out, _ = self.velum("check", "g.toml")
+        self.assertRegex(out, r"36 cells, about \d+ s .* the cells of the study before")
+        # The run of the same graph, in the same folder, is still there, and so is the study after
+        # another one.
+        self.assertEqual(self.record()["status"], "ok")
+        self.velum("run", "g.toml")
+        self.assertEqual(len(self.cells()), 36)
 
     def test_what_is_timed_runs_every_time_and_the_rest_once(self):
         self.write("g.toml", GRAPH + """
@@ -114,7 +130,10 @@ values = [4, 5]
 param = "moved.by"
 values = [1, 2, 3]
 """)
-        self.velum("study", "g.toml", "--jobs", "2")
+        _, error = self.velum("study", "g.toml", "--set", "moved.by=9", status=2)
+        self.assertIn("the study varies 'moved.by': the value would be lost", error)
+        self.velum("study", "g.toml", "--jobs", "2", "--set", "start.count=7")
+        self.assertEqual({cell["start.count"] for cell in self.cells()}, {"7"})
         statuses = {"start": [], "moved": [], "other": []}
         for variant in ("v1", "v2", "v3"):
             record = json.loads((self.folder / f"g.out/cells/{variant}/1/run.json").read_text())
@@ -134,27 +153,30 @@ range = { from = 1, to = 8, steps = 8 }
 """)
         self.velum("study", "g.toml", "--out", "whole", "--jobs", "2")
         chance = random.Random(4)
-        kills = 0
-        for attempt in range(40):
+        kills, studies = 0, 0
+        while kills < KILLS:
+            studies += 1
+            kills += self.kill_until_it_ends(f"cut{studies}", chance, KILLS - kills)
+            for name in ("study.csv", "study.json"):
+                self.assertEqual((self.folder / f"cut{studies}" / name).read_bytes(),
+                                 (self.folder / "whole" / name).read_bytes())
+        print(f"{kills} kills in {studies} studies")
+
+    def kill_until_it_ends(self, out, chance, most):
+        """How often it was killed, which is `most` times at most."""
+        for kills in range(most + 1):
             process = subprocess.Popen(
-                [VELUM, "study", "g.toml", "--out", "cut", "--jobs", "2", "--resume"],
+                [VELUM, "study", "g.toml", "--out", out, "--jobs", "2", "--resume"],
                 cwd=self.folder, env=self.environment, stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL)
             try:
-                # Ever later, so that it also ends where everything is slow.
-                status = process.wait(chance.uniform(0.02, 0.25) * 1.1**attempt)
+                status = process.wait(chance.uniform(0.02, 0.4) if kills < most else 120)
                 self.assertEqual(status, 0)
-                break
+                return kills
             except subprocess.TimeoutExpired:
                 process.send_signal(signal.SIGKILL)
                 process.wait()
-                kills += 1
-        else:
-            self.fail("40 attempts were not enough")
-        self.assertGreater(kills, 0)
-        for name in ("study.csv", "study.json"):
-            self.assertEqual((self.folder / "cut" / name).read_bytes(),
-                             (self.folder / "whole" / name).read_bytes())
+        return self.fail("it does not end")
 
     def test_interrupted_it_keeps_what_is_done(self):
         self.write("g.toml", GRAPH + """
@@ -185,6 +207,48 @@ alternatives = [{ use = "test.slow" }, { use = "test.move" }]
         self.assertIn("has changed since", error)
         self.velum("study", "g.toml")
         self.assertEqual(len(self.cells()), 2)
+
+    def test_what_failed_runs_again_when_asked(self):
+        self.write("g.toml", GRAPH + """
+[[study.vary]]
+node = "moved"
+alternatives = [{ use = "test.move" }, { use = "test.throws" }]
+""")
+        self.velum("study", "g.toml", status=3)
+        _, error = self.velum("study", "g.toml", "--resume", status=3)
+        self.assertNotIn("/2]", error)
+        _, error = self.velum("study", "g.toml", "--resume", "--retry", status=3)
+        self.assertIn("[2/2] v2", error)
+        self.assertNotIn("] v1", error)
+
+    def test_a_helper_that_reads_other_data_is_another_group(self):
+        self.write("a.txt", "3\n")
+        self.write("b.txt", "4\n")
+        graph = """
+units = "m"
+[node.start]
+use = "test.read"
+file = "a.txt"
+[node.moved]
+use = "test.move"
+in = "start"
+[study]
+measure = ["moved.by"]
+[[study.vary]]
+node = "moved"
+alternatives = [
+  { use = "test.move" },
+  { title = "other", use = "test.move", in = "h", with = { h = { use = "test.read", file = "FILE" } } },
+]
+"""
+        for file, groups in (("a.txt", [0, 0]), ("b.txt", [0, 1])):
+            self.write("g.toml", graph.replace("FILE", file))
+            self.velum("study", "g.toml")
+            self.assertEqual([variant["data"] for variant in self.study()["variants"]], groups)
+        self.velum("study", "g.toml", "--resume")
+        self.write("b.txt", "5\n")
+        _, error = self.velum("study", "g.toml", "--resume", status=2)
+        self.assertIn("has changed since", error)
 
     def test_other_files_are_another_study(self):
         for name in ("b", "c"):

@@ -3,18 +3,20 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <span>
 #include <system_error>
 #include <vector>
 
 #include "files/descriptor.hpp"
 #include "files/hasher.hpp"
+#include "files/lock.hpp"
 #include "velum/files.hpp"
 
 namespace velum {
@@ -39,15 +41,28 @@ std::string prefix_of(const fs::path& target) {
   return fmt::format(".{}.partial.", target.filename().string().substr(0, kLongestName));
 }
 
-/// Has the process that made `aside` ended without removing it? Live writers hold a lock.
+/// Tells hosts that share a folder apart: numbers of processes mean nothing on another one, and
+/// locks may not reach there.
+const std::string& host() {
+  static const std::string tag = [] {
+    std::array<char, 256> name{};
+    ::gethostname(name.data(), name.size() - 1);
+    return hash_of(std::as_bytes(std::span(name))).substr(0, 8);
+  }();
+  return tag;
+}
+
+/// Has the process that made `aside` on this host ended without removing it? Live writers hold a
+/// lock.
 bool is_left_over(const fs::path& aside, std::string_view behind_prefix) {
   pid_t process = 0;
   const auto parsed =
       std::from_chars(behind_prefix.data(), behind_prefix.data() + behind_prefix.size(), process);
   if (parsed.ec != std::errc() || process <= 0) return false;
+  if (!std::string_view(parsed.ptr).starts_with("." + host())) return false;
   if (::kill(process, 0) == 0 || errno != ESRCH) return false;
   const files::Descriptor file(::open(aside.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  return file && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0;
+  return file && files::lock_now(file.get());
 }
 
 void remove_left_overs(const fs::path& target) {
@@ -108,7 +123,7 @@ struct AtomicFile::Impl {
 };
 
 void AtomicFile::Impl::open_aside() {
-  const std::string stem = fmt::format("{}{}", prefix_of(target), ::getpid());
+  const std::string stem = fmt::format("{}{}.{}", prefix_of(target), ::getpid(), host());
   // Some libraries choose the format by the name's ending.
   const std::string extension = target.extension().string().substr(0, 32);
   for (int writer = 0; writer < kMostWriters; ++writer) {
@@ -118,7 +133,7 @@ void AtomicFile::Impl::open_aside() {
     file = files::Descriptor(
         ::open(aside.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666));
     if (file) {
-      ::flock(file.get(), LOCK_EX | LOCK_NB);  // tells other writers that we are alive
+      (void)files::lock_now(file.get());  // tells other writers that we are alive
       return;
     }
     if (errno != EEXIST) break;

@@ -82,7 +82,8 @@ std::string node_text(const Check& check, const Checked& checked) {
 std::string study_text(const toml::Node& study) {
   std::string text = "\n[study]\n";
   for (const toml::Entry& entry : study.entries)
-    text += line(key_text(entry.key), value_text(entry.value));
+    if (entry.key != "slurm")  // where it runs is no part of what is run
+      text += line(key_text(entry.key), value_text(entry.value));
   return text;
 }
 

@@ -220,6 +220,20 @@ Json node(const std::vector<const StageInfo*>& stages) {
   return schema;
 }
 
+Json slurm() {
+  const Json count = {{"type", "integer"}, {"minimum", 1}};
+  Json schema = {{"type", "object"}, {"additionalProperties", false}};
+  schema["properties"] = {{"account", text("that is charged")},
+                          {"partition", text("where the tasks run")},
+                          {"time", text("longest time of a task, as \"2 h\"")},
+                          {"memory", text("memory of a task, as \"4 GB\"")},
+                          {"cpus", count},
+                          {"cells", count},
+                          {"array", count},
+                          {"options", {{"type", "array"}, {"items", {{"type", "string"}}}}}};
+  return schema;
+}
+
 Json study() {
   const Json strings = {{"type", "array"}, {"items", {{"type", "string"}}}};
   Json axis = {{"type", "object"}, {"additionalProperties", false}};
@@ -245,6 +259,7 @@ Json study() {
                           {"timing", {{"enum", {"shared", "exclusive"}}}},
                           {"timeout", text("longest time of a cell, as \"60 s\"")},
                           {"memory", text("most memory of a cell, as \"2 GB\"")},
+                          {"slurm", slurm()},
                           {"vary", {{"type", "array"}, {"items", std::move(axis)}}}};
   return schema;
 }

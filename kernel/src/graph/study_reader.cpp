@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "graph/settings.hpp"
+#include "graph/study_slurm.hpp"
 #include "graph/units.hpp"
 
 namespace velum::graph {
@@ -24,15 +25,16 @@ class Reader : public StudyReader {
     const toml::Node& table = entry.value;
     only(table,
          {"title", "repeat", "seed", "measure", "vary", "exclude", "sample", "reference", "timing",
-          "timeout", "memory"},
+          "timeout", "memory", "slurm"},
          "[study]");
     if (const toml::Entry* title = table.find("title"))
-      if (expect(*title, Kind::string, "text")) study_.title = title->value.text;
+      if (expect(*title, Kind::string, "text")) study_.title = label_of(title->value);
     seeds(table);
     measures(table);
     axes(table);
     chosen(table);
     conditions(table);
+    if (const toml::Entry* slurm = table.find("slurm"); slurm != nullptr) this->slurm(*slurm);
     return std::move(study_);
   }
 
@@ -71,16 +73,14 @@ class Reader : public StudyReader {
   void axes(const toml::Node& table) {
     const toml::Entry* entry = table.find("vary");
     if (entry == nullptr || !expect(*entry, Kind::array, "written [[study.vary]]")) return;
+    std::vector<toml::Region> places;
     for (const toml::Node& item : entry->value.items) {
       auto axis = read_axis(check(), item);
       if (!axis) continue;
-      const auto same = [&](const Axis& other) { return other.name == axis->name; };
-      if (std::ranges::any_of(study_.axes, same))
-        report().error("E0601", item.where, fmt::format("two axes are called '{}'", axis->name),
-                       "give one of them a title");
-      else
-        study_.axes.push_back(std::move(*axis));
+      places.push_back(item.where);
+      study_.axes.push_back(std::move(*axis));
     }
+    check_axes(check(), study_.axes, places);
     zipped(entry->where);
   }
 
@@ -161,6 +161,13 @@ class Reader : public StudyReader {
     }
   }
 
+  /// Only its mistakes: who runs the study by Slurm reads it again.
+  void slurm(const toml::Entry& entry) const {
+    Slurm ignored;
+    if (expect(entry, Kind::table, "a table"))
+      for (const toml::Entry& key : entry.value.entries) read_slurm(key, report(), ignored);
+  }
+
   static constexpr std::int64_t kMostRepeats = 100'000;
   Study study_;
 };
@@ -206,7 +213,14 @@ std::optional<MeasureName> StudyReader::dotted(const std::string& text, toml::Re
 }
 
 std::string label_of(const toml::Node& value) {
-  return value.is(Kind::string) ? value.text : value_text(value);
+  if (!value.is(Kind::string)) return value_text(value);
+  std::string label;
+  for (const char c : value.text)
+    if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7F)
+      label += fmt::format("\\x{:02x}", code);
+    else
+      label += c;
+  return label;
 }
 
 std::optional<Study> read_study(const Check& check) {

@@ -36,7 +36,17 @@ class StudyReader {
 /// Reads one [[study.vary]]; nothing, with a report, when its form is wrong.
 [[nodiscard]] std::optional<Axis> read_axis(const Check& check, const toml::Node& table);
 
-/// How a value is called in tables: a string is itself.
+/// The values of `range = { from, to, steps, scale }` and of `files = "scans/*.pcd"`; none, with a
+/// report, when there are none or the form is wrong.
+[[nodiscard]] std::vector<toml::Node> read_range(const Check& check, const toml::Entry& range);
+[[nodiscard]] std::vector<toml::Node> read_files(const Check& check, const toml::Entry& files);
+
+/// Reports what would be lost or confused among the axes of a study: two that vary the same, names
+/// that study.csv has already.
+void check_axes(const Check& check, const std::vector<Axis>& axes,
+                const std::vector<toml::Region>& places);
+
+/// How a value is called in tables: a string is itself, but for control characters.
 [[nodiscard]] std::string label_of(const toml::Node& value);
 
 }  // namespace velum::graph

@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 
 #include "files/descriptor.hpp"
 #include "files/hasher.hpp"
+#include "files/lock.hpp"
 #include "run/record.hpp"
 #include "values/flat.hpp"
 #include "velum/files.hpp"
@@ -162,16 +162,19 @@ std::string Cache::store(const std::string& key, const CacheEntry& entry, const 
 
 Cache::Claim Cache::claim(const std::string& key, const std::atomic<bool>* cancel) const {
   constexpr std::size_t kDigits = 3;  // 4096 files at most, shared by keys that begin alike
-  constexpr std::chrono::milliseconds kPause{5};
+  // Short between the processes of one host; a file server shall not be asked by all its clients
+  // all the time.
+  std::chrono::milliseconds pause{5};
+  constexpr std::chrono::milliseconds kLongestPause{160};
   std::error_code failed;
   fs::create_directories(folder_ / "claims", failed);
   const fs::path file = folder_ / "claims" / key.substr(0, kDigits);
   Claim claim{files::Descriptor(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))};
-  // Where there are no locks it is made twice: that is all.
-  while (claim.lock && ::flock(claim.lock.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK &&
-         (cancel == nullptr || !*cancel)) {
+  // Where there are no locks, or none between hosts, it is made twice: that is all.
+  while (claim.lock && !files::lock_now(claim.lock.get()) && (cancel == nullptr || !*cancel)) {
     claim.waited = true;
-    std::this_thread::sleep_for(kPause);
+    std::this_thread::sleep_for(pause);
+    pause = std::min(kLongestPause, pause * 2);
   }
   return claim;
 }
@@ -180,7 +183,7 @@ void Cache::trim() {
   if (!stored_) return;
   const files::Descriptor lock(
       ::open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (!lock || ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) return;
+  if (!lock || !files::lock_now(lock.get())) return;
   std::vector<Stored> files;
   for (const char* part : {"entries", "values"}) {
     std::vector<Stored> some = stored_files(folder_ / part);

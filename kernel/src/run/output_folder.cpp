@@ -4,15 +4,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <set>
 #include <sstream>
 
+#include "files/lock.hpp"
 #include "run/json.hpp"
 #include "velum/files.hpp"
 
@@ -77,8 +76,27 @@ bool is_partial(const fs::path& file) {
 
 }  // namespace
 
+std::vector<fs::path> files_of_run(const fs::path& folder, const std::string& graph) {
+  std::vector<fs::path> files;
+  for (const auto& earlier : {from_record(folder / kRecordName), from_lock(folder / kLockName)}) {
+    if (!earlier) continue;
+    // A record can only hold a name that is UTF-8.
+    if (earlier->graph != graph &&
+        earlier->graph != Json::parse(dump(Json(graph))).get<std::string>())
+      refuse(folder,
+             fmt::format("the folder holds the results of another graph, {}", earlier->graph),
+             "choose another folder with --out, or remove this one");
+    for (const std::string& name : earlier->files)
+      if (const fs::path file = fs::path(name).lexically_normal(); stays_inside(file))
+        files.push_back(file);
+  }
+  return files;
+}
+
 OutputFolder::OutputFolder(const fs::path& path, const std::string& graph,
-                           const std::vector<std::string>& files) {
+                           const std::vector<std::string>& files,
+                           const std::vector<std::string>& others)
+    : others_(others.begin(), others.end()) {
   std::error_code failed;
   path_ = fs::absolute(path).lexically_normal();
   fs::create_directories(path_, failed);
@@ -111,12 +129,14 @@ void OutputFolder::lock() {
     if (!lock_)
       refuse(path_, "cannot be written: " + files::reason(errno),
              "choose another folder with --out");
-    if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0) {
+    if (!files::lock_now(lock_.get())) {
       std::string process(32, '\0');
       const ssize_t got = ::pread(lock_.get(), process.data(), process.size(), 0);
       process.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
       process.resize(std::min(process.find('\n'), process.size()));
-      refuse(path_, fmt::format("process {} is writing to this folder", process),
+      refuse(path_,
+             process.empty() ? "another process is writing to this folder"
+                             : fmt::format("process {} is writing to this folder", process),
              "wait for it, or choose another folder with --out");
     }
     // The one who held it before may have removed the file that was opened here.
@@ -129,28 +149,18 @@ void OutputFolder::lock() {
 }
 
 void OutputFolder::refuse_strangers(const std::string& graph) {
+  earlier_ = files_of_run(path_, graph);
+  std::erase_if(earlier_, [&](const fs::path& file) { return others_.contains(*file.begin()); });
   std::set<fs::path> ours = {kLockName};
-  for (const auto& earlier : {from_record(path_ / kRecordName), from_lock(path_ / kLockName)}) {
-    if (!earlier) continue;
-    // A record can only hold a name that is UTF-8.
-    if (earlier->graph != graph &&
-        earlier->graph != Json::parse(dump(Json(graph))).get<std::string>())
-      refuse(path_,
-             fmt::format("the folder holds the results of another graph, {}", earlier->graph),
-             "choose another folder with --out, or remove this one");
-    for (const std::string& name : earlier->files) {
-      const fs::path file = fs::path(name).lexically_normal();
-      if (!stays_inside(file)) continue;
-      earlier_.push_back(file);
-      for (fs::path part = file; !part.empty(); part = part.parent_path()) ours.insert(part);
-    }
-  }
+  for (const fs::path& file : earlier_)
+    for (fs::path part = file; !part.empty(); part = part.parent_path()) ours.insert(part);
   std::string strangers;
   int count = 0;
   for (auto entry = fs::recursive_directory_iterator(path_); entry != fs::end(entry); ++entry) {
     const fs::path relative = entry->path().lexically_relative(path_);
-    if (relative == kScratchName) entry.disable_recursion_pending();
-    if (relative == kScratchName || ours.contains(relative) || is_partial(relative)) continue;
+    const bool left_alone = relative == kScratchName || others_.contains(relative);
+    if (left_alone) entry.disable_recursion_pending();
+    if (left_alone || ours.contains(relative) || is_partial(relative)) continue;
     if (entry->is_directory()) entry.disable_recursion_pending();
     if (++count <= 3) strangers += (count > 1 ? ", " : "") + relative.string();
   }
@@ -201,9 +211,11 @@ void OutputFolder::close() {
   fs::remove_all(path_ / kScratchName, ignored);
   const std::string own = fmt::format(".partial.{}", ::getpid());
   for (auto entry = fs::recursive_directory_iterator(path_, ignored); entry != fs::end(entry);
-       entry.increment(ignored))
-    if (is_partial(entry->path()) && entry->path().string().find(own) != std::string::npos)
-      fs::remove(entry->path(), ignored);
+       entry.increment(ignored)) {
+    const fs::path& file = entry->path();
+    if (others_.contains(file.lexically_relative(path_))) entry.disable_recursion_pending();
+    if (is_partial(file) && file.string().find(own) != std::string::npos) fs::remove(file, ignored);
+  }
   fs::remove(path_ / kLockName, ignored);
   lock_ = files::Descriptor();
 }

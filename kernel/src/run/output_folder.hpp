@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,10 @@ namespace velum::run {
 class OutputFolder {
  public:
   /// `graph` names the graph in records; `files` are those that the run will write, relative to the
-  /// folder, so that the next run knows them as its own even if this one is killed.
+  /// folder, so that the next run knows them as its own even if this one is killed. What has one of
+  /// the names in `others` at its top belongs to somebody else, and stays.
   OutputFolder(const std::filesystem::path& path, const std::string& graph,
-               const std::vector<std::string>& files);
+               const std::vector<std::string>& files, const std::vector<std::string>& others = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -42,7 +44,13 @@ class OutputFolder {
   std::filesystem::path path_;
   files::Descriptor lock_;
   std::vector<std::filesystem::path> earlier_;  ///< files of ours, relative
+  std::set<std::filesystem::path> others_;
 };
+
+/// What an earlier run of this graph has left in a folder, or would have: relative to it. Throws
+/// Error (Fault::output) when the folder has the results of another graph.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder,
+                                                              const std::string& graph);
 
 inline constexpr const char* kRecordName = "run.json";
 inline constexpr const char* kReportName = "report.html";

@@ -107,7 +107,7 @@ RunResult run_graph(const graph::Graph& graph, plugins::Registry& registry,
   check_chosen(graph, options.only);
   const Frame frame(graph, options);
   refuse_cache_within(options);
-  OutputFolder folder(options.out, graph_name(graph.path), planned_files(graph));
+  OutputFolder folder(options.out, graph_name(graph.path), planned_files(graph), options.others);
   std::optional<Cache> cache;
   if (!options.cache.empty()) cache.emplace(options.cache, options.cache_limit);
   auto executor =

@@ -31,6 +31,7 @@ struct RunOptions {
   std::vector<Witness*> witnesses;
   /// Called when the record is written, while the output folder is still held.
   std::function<void(const RunResult&)> recorded;
+  std::vector<std::string> others;  ///< what in `out` belongs to somebody else, and stays
 };
 
 /// Runs a graph into its output folder and writes the record there, also when a node fails or the

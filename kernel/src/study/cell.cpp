@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 
+#include "files/descriptor.hpp"
 #include "run/node_error.hpp"
 #include "run/run.hpp"
 #include "study/cell_views.hpp"
+#include "study/prepare.hpp"
 #include "velum/files.hpp"
 
 namespace velum::study {
@@ -49,13 +52,26 @@ std::optional<Figure> figure(const run::RunRecord& record, const graph::MeasureN
   return Figure{measure->second.value, measure->second.unit, measure->second.better};
 }
 
-std::string source_hash(const run::RunRecord& record, const std::set<std::string>& sources) {
+/// Hash of what the sources gave. A source that only this variant has, a helper of an alternative,
+/// counts where it gives what no source of the graph does.
+std::string source_hash(const run::RunRecord& record, const std::set<std::string>& of_graph,
+                        const std::set<std::string>& of_variant) {
   std::string all;
+  std::set<std::string> given;
+  std::set<std::string> more;
   for (const run::NodeRecord& node : record.nodes)
-    if (sources.contains(node.name))
-      for (const auto& [port, value] : node.out.items())
-        if (value.is_object())  // null where the source left an output out
-          all += fmt::format("{}.{} {}\n", node.name, port, value.value("hash", ""));
+    for (const auto& [port, value] : node.out.items()) {
+      if (!value.is_object()) continue;  // null where the source left an output out
+      const std::string hash = value.value("hash", "");
+      if (of_graph.contains(node.name)) {
+        all += fmt::format("{}.{} {}\n", node.name, port, hash);
+        given.insert(hash);
+      } else if (of_variant.contains(node.name)) {
+        more.insert(hash);
+      }
+    }
+  for (const std::string& hash : more)
+    if (!given.contains(hash)) all += hash + "\n";
   return hash_of(std::as_bytes(std::span(all)));
 }
 
@@ -67,13 +83,14 @@ Status status_of(const std::string& code) {
   return Status::failed;
 }
 
-Outcome outcome_of(const run::RunRecord& record, const Plan& plan, const Setup& setup) {
+Outcome outcome_of(const run::RunRecord& record, const Plan& plan, const Setup& setup,
+                   const graph::Graph& graph) {
   if (record.status == run::Status::interrupted) throw Cancelled();
   Outcome outcome;
   outcome.status = Status::ok;
   outcome.seconds = record.seconds;
   outcome.peak_bytes = record.peak_bytes;
-  outcome.source = source_hash(record, setup.sources);
+  outcome.source = source_hash(record, setup.sources, sources_of(graph));
   if (record.failure) {
     outcome.status = status_of(record.failure->code);
     outcome.message = fmt::format("{} ({}): {}", record.failure->node, record.failure->stage,
@@ -103,6 +120,15 @@ std::filesystem::path folder_of(const Plan& plan, const Cell& cell) {
          fmt::format("{}", cell.repeat + 1);
 }
 
+void require_room(const Outcome& outcome, const std::filesystem::path& folder) {
+  for (const int reason : {ENOSPC, EDQUOT})
+    if (outcome.status != Status::ok &&
+        outcome.message.find(files::reason(reason)) != std::string::npos)
+      throw Error(Fault::output, outcome.message)
+          .at(folder.string())
+          .hint("make room on the disk; --resume goes on from here");
+}
+
 Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
                  plugins::Registry& registry) {
   const graph::Variation variation = plan.variation(plan.variants[cell.variant]);
@@ -120,7 +146,8 @@ Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
     CellViews views(plan, cell, *loaded.graph, options.out, setup.threads);
     views.ask(options);
     run::Observer nobody;
-    return outcome_of(run::run_graph(*loaded.graph, registry, options, nobody).record, plan, setup);
+    const auto result = run::run_graph(*loaded.graph, registry, options, nobody);
+    return outcome_of(result.record, plan, setup, *loaded.graph);
   } catch (const Error& error) {
     Outcome outcome;
     outcome.message = plugins::one_line(error);

@@ -34,4 +34,7 @@ struct Setup {
 [[nodiscard]] Outcome run_cell(const Plan& plan, const Cell& cell, const Setup& setup,
                                plugins::Registry& registry);
 
+/// A full disk is no result of a cell: throws Error (Fault::output) when it is the reason.
+void require_room(const Outcome& outcome, const std::filesystem::path& folder);
+
 }  // namespace velum::study

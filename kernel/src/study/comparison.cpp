@@ -10,7 +10,8 @@ namespace {
 
 class Comparer {
  public:
-  Comparer(const Plan& plan, const Outcomes& outcomes) : plan_(plan), outcomes_(outcomes) {}
+  Comparer(const Plan& plan, const Outcomes& outcomes)
+      : plan_(plan), outcomes_(outcomes), references_(plan.references()) {}
 
   Comparison compare() {
     comparison_.variants.resize(plan_.variants.size());
@@ -71,17 +72,23 @@ class Comparer {
   /// Variants go together unless they had other sources in some repeat. One that is never ok had
   /// none that are known.
   void group() {
-    std::vector<std::map<std::size_t, std::string>> groups;  // source by repeat
+    using Sources = std::map<std::size_t, std::string>;  // by repeat
+    std::vector<Sources> groups;
+    std::map<Sources, std::size_t> known;  // which most variants agree with
     for (std::size_t v = 0; v < plan_.variants.size(); ++v) {
-      std::map<std::size_t, std::string> own;
+      Sources own;
       for (std::size_t r = 0; r < repeats(); ++r)
         if (outcome(v, r).status == Status::ok) own[r] = outcome(v, r).source;
       if (own.empty()) continue;
-      std::size_t g = 0;
-      while (g < groups.size() && !agree(own, groups[g])) ++g;
-      if (g == groups.size()) groups.emplace_back();
-      groups[g].insert(own.begin(), own.end());
-      comparison_.variants[v].group = g;
+      const auto [same, fresh] = known.try_emplace(own, 0);
+      if (fresh) {
+        std::size_t g = 0;
+        while (g < groups.size() && !agree(own, groups[g])) ++g;
+        if (g == groups.size()) groups.emplace_back();
+        groups[g].insert(own.begin(), own.end());
+        same->second = g;
+      }
+      comparison_.variants[v].group = same->second;
     }
     comparison_.groups = std::max<std::size_t>(1, groups.size());
   }
@@ -97,19 +104,17 @@ class Comparer {
   void rank(const std::string& measure) {
     const Better better = comparison_.measures.at(measure).better;
     if (better == Better::neither) return;
-    for (std::size_t g = 0; g < comparison_.groups; ++g) {
-      std::vector<MeasureSummary*> ranked;
+    std::vector<std::vector<MeasureSummary*>> ranked(comparison_.groups);
+    for (VariantSummary& variant : comparison_.variants) {
+      const auto found = variant.measures.find(measure);
+      if (found != variant.measures.end() && found->second.count == repeats())
+        ranked[variant.group].push_back(&found->second);
+    }
+    for (const auto& group : ranked) {
       std::vector<double> means;
-      for (VariantSummary& variant : comparison_.variants) {
-        const auto found = variant.measures.find(measure);
-        if (variant.group != g || found == variant.measures.end() ||
-            found->second.count < repeats())
-          continue;
-        ranked.push_back(&found->second);
-        means.push_back(found->second.summary.mean);
-      }
+      for (const MeasureSummary* one : group) means.push_back(one->summary.mean);
       const std::vector<int> places = ranks(means, better == Better::lower);
-      for (std::size_t i = 0; i < ranked.size(); ++i) ranked[i]->rank = places[i];
+      for (std::size_t i = 0; i < group.size(); ++i) group[i]->rank = places[i];
     }
   }
 
@@ -117,7 +122,7 @@ class Comparer {
     std::vector<Difference*> tested;
     std::vector<double> p;
     for (std::size_t v = 0; v < plan_.variants.size(); ++v) {
-      const std::size_t reference = plan_.reference_of(v);
+      const std::size_t reference = references_[v];
       const auto found = comparison_.variants[v].measures.find(measure);
       if (reference == plan_.variants.size() || reference == v ||
           found == comparison_.variants[v].measures.end() ||
@@ -144,6 +149,7 @@ class Comparer {
 
   const Plan& plan_;
   const Outcomes& outcomes_;
+  const std::vector<std::size_t> references_;
   Comparison comparison_;
 };
 

@@ -90,8 +90,9 @@ graph::Variation Plan::variation(const Variant& variant) const {
   return all;
 }
 
-std::size_t Plan::reference_of(std::size_t variant) const {
-  if (!study.reference) return variants.size();
+std::vector<std::size_t> Plan::references() const {
+  std::vector<std::size_t> found(variants.size(), variants.size());
+  if (!study.reference) return found;
   // Named itself, or along with an axis that is.
   const auto is_named = [&](const graph::Axis& axis) {
     return std::ranges::any_of(study.axes, [&](const graph::Axis& other) {
@@ -99,14 +100,22 @@ std::size_t Plan::reference_of(std::size_t variant) const {
              (other.name == axis.name || (!axis.zip.empty() && other.zip == axis.zip));
     });
   };
-  const auto is_reference = [&](const Variant& other) {
-    if (!matches(study, other.choices, *study.reference)) return false;
-    for (std::size_t a = 0; a < study.axes.size(); ++a)
-      if (!is_named(study.axes[a]) && other.choices[a] != variants[variant].choices[a])
-        return false;
-    return true;
+  std::vector<std::size_t> free;  // axes
+  for (std::size_t a = 0; a < study.axes.size(); ++a)
+    if (!is_named(study.axes[a])) free.push_back(a);
+  const auto others_of = [&](const Variant& variant) {
+    std::vector<std::size_t> choices;
+    for (const std::size_t a : free) choices.push_back(variant.choices[a]);
+    return choices;
   };
-  return static_cast<std::size_t>(std::ranges::find_if(variants, is_reference) - variants.begin());
+  std::map<std::vector<std::size_t>, std::size_t> reference;
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    if (matches(study, variants[v].choices, *study.reference))
+      reference.try_emplace(others_of(variants[v]), v);
+  for (std::size_t v = 0; v < variants.size(); ++v)
+    if (const auto one = reference.find(others_of(variants[v])); one != reference.end())
+      found[v] = one->second;
+  return found;
 }
 
 Plan make_plan(graph::Study study) {

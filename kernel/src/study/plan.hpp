@@ -33,9 +33,9 @@ struct Plan {
     return study.axes[axis].choices[variant.choices[axis]].label;
   }
   [[nodiscard]] graph::Variation variation(const Variant& variant) const;
-  /// Index of the variant that `variant` is compared with: the reference's labels, all other axes
-  /// the same. The number of variants when there is none.
-  [[nodiscard]] std::size_t reference_of(std::size_t variant) const;
+  /// For each variant the index of the one that it is compared with: the reference's labels, all
+  /// other axes the same. The number of variants when there is none.
+  [[nodiscard]] std::vector<std::size_t> references() const;
   [[nodiscard]] std::size_t cells() const { return variants.size() * study.seeds.size(); }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "graph/graph.hpp"
+#include "graph/study_slurm.hpp"
 #include "plugins/registry.hpp"
 #include "study/comparison.hpp"
 
@@ -25,6 +26,11 @@ struct StudyOptions {
   std::optional<double> seconds;       ///< of a cell, instead of the study's
   std::optional<std::uint64_t> bytes;
   bool resume = false;
+  bool retry = false;  ///< with resume: cells that are not ok run again
+  /// Slurm runs the cells, asked like this; else they run here.
+  std::optional<graph::Slurm> slurm;
+  /// Told what happens to Slurm's tasks, a line each.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -38,9 +44,9 @@ struct StudyResult {
 /// Told of each cell that ends: how many are done, and how many there are.
 using CellEnded = std::function<void(const Plan&, const Cell&, const Outcome&, std::size_t done)>;
 
-/// Runs the study of `graph` into its folder: a process a cell, the journal as it goes, study.csv
-/// and study.json at its end. Cells whose outcome the journal has are not run again. Throws Error
-/// when it cannot begin or write.
+/// Runs the study of `graph` into its folder: a process a cell, here or in tasks of Slurm, the
+/// journal as it goes, study.csv and study.json at its end. Cells whose outcome the journal has are
+/// not run again. Throws Error when it cannot begin or write.
 StudyResult run_study(const graph::Graph& graph, plugins::Registry& registry,
                       const StudyOptions& options, const CellEnded& ended);
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "run/record.hpp"
 
@@ -127,9 +128,16 @@ constexpr std::size_t kMostRows = 40;
 std::string csv(const Plan& plan, const Outcomes& outcomes, const Comparison& comparison) {
   const std::vector<std::string> names = measured(plan);
   std::string text = "variant,repeat,seed,status,message";
-  for (const auto& axis : plan.study.axes) text += "," + field(axis.name);
-  for (const std::string& name : names)
-    text += "," + field(heading(name, comparison.measures.at(name)));
+  std::set<std::string> columns;
+  for (const auto& axis : plan.study.axes) {
+    text += "," + field(axis.name);
+    columns.insert(axis.name);
+  }
+  for (const std::string& name : names) {
+    std::string column = heading(name, comparison.measures.at(name));
+    if (!columns.insert(column).second) column += " []";  // an axis has that name
+    text += "," + field(column);
+  }
   text += "\n";
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     for (std::size_t r = 0; r < plan.study.seeds.size(); ++r) {
@@ -148,8 +156,8 @@ std::string csv(const Plan& plan, const Outcomes& outcomes, const Comparison& co
   return text;
 }
 
-run::Json json(const Plan& plan, const Outcomes& outcomes, const Comparison& comparison,
-               const std::string& graph) {
+std::string json(const Plan& plan, const Outcomes& outcomes, const Comparison& comparison,
+                 const std::string& graph) {
   run::Json axes = run::Json::array();
   for (const auto& axis : plan.study.axes) {
     run::Json labels = run::Json::array();
@@ -161,24 +169,25 @@ run::Json json(const Plan& plan, const Outcomes& outcomes, const Comparison& com
     const Figure& figure = comparison.measures.at(name);
     measures[name] = {{"unit", figure.unit}, {"better", run::name_of(figure.better)}};
   }
-  run::Json variants = run::Json::array();
+  const run::Json head = {{"velum", kVersion},
+                          {"graph", graph},
+                          {"title", plan.study.title},
+                          {"axes", std::move(axes)},
+                          {"measures", std::move(measures)}};
+  // All variants of a large study as one value would take gigabytes.
+  std::string text = run::dump(head);
+  text.pop_back();
+  text += ",\"variants\":[";
   for (std::size_t v = 0; v < plan.variants.size(); ++v) {
     const VariantSummary& summary = comparison.variants[v];
-    variants.push_back({{"id", plan.variants[v].id},
-                        {"axes", axes_of(plan, plan.variants[v])},
-                        {"status", name_of(summary.status)},
-                        {"message", summary.message},
-                        {"success", summary.success},
-                        {"data", summary.group},
-                        {"runs", runs_of(plan, outcomes, v)},
-                        {"summary", summary_of(plan, summary)}});
+    const run::Json variant = {
+        {"id", plan.variants[v].id},          {"axes", axes_of(plan, plan.variants[v])},
+        {"status", name_of(summary.status)},  {"message", summary.message},
+        {"success", summary.success},         {"data", summary.group},
+        {"runs", runs_of(plan, outcomes, v)}, {"summary", summary_of(plan, summary)}};
+    text += (v > 0 ? ",\n" : "\n") + run::dump(variant);
   }
-  return {{"velum", kVersion},
-          {"graph", graph},
-          {"title", plan.study.title},
-          {"axes", std::move(axes)},
-          {"measures", std::move(measures)},
-          {"variants", std::move(variants)}};
+  return text + "\n]}\n";
 }
 
 std::string text(const Plan& plan, const Comparison& comparison) {

@@ -4,7 +4,6 @@
 
 #include <string>
 
-#include "run/json.hpp"
 #include "study/comparison.hpp"
 
 /// A study's results as files and on the terminal (docs/studies.md).
@@ -13,9 +12,9 @@ namespace velum::study {
 /// study.csv: a row a cell.
 [[nodiscard]] std::string csv(const Plan& plan, const Outcomes& outcomes,
                               const Comparison& comparison);
-/// study.json: all of it.
-[[nodiscard]] run::Json json(const Plan& plan, const Outcomes& outcomes,
-                             const Comparison& comparison, const std::string& graph);
+/// study.json: all of it, a variant a line.
+[[nodiscard]] std::string json(const Plan& plan, const Outcomes& outcomes,
+                               const Comparison& comparison, const std::string& graph);
 /// For people: a row a variant, mean and standard deviation of each measure, the best first. Of
 /// many variants only the first ones.
 [[nodiscard]] std::string text(const Plan& plan, const Comparison& comparison);
