@@ -14,7 +14,6 @@ namespace velum::app {
 void add_run(CLI::App& app);
 void add_check(CLI::App& app);
 void add_study(CLI::App& app);
-void add_study_task(CLI::App& app);
 void add_rerun(CLI::App& app);
 void add_report(CLI::App& app);
 void add_list(CLI::App& app);

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "graph/diagnostic.hpp"
+#include "study_task.hpp"
 
 namespace velum::app {
 namespace {

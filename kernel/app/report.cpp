@@ -124,9 +124,13 @@ void run_report(const Options& options, const report::Page& page, plugins::Regis
 void report_command(const Options& options) {
   const report::Page page;
   plugins::Registry registry;
-  if (fs::exists(options.folder / run::kRecordName)) {
+  const fs::path run = options.folder / run::kRecordName;
+  const fs::path study = options.folder / report::kStudyName;
+  // A run and a study of one graph may share a folder: the report is that of the later one.
+  if (fs::exists(run) &&
+      (!fs::exists(study) || fs::last_write_time(run) > fs::last_write_time(study))) {
     run_report(options, page, registry);
-  } else if (fs::exists(options.folder / report::kStudyName)) {
+  } else if (fs::exists(study)) {
     report::write_study_report(options.folder, page, registry);
   } else {
     throw Error(Fault::graph, "the folder has neither run.json nor study.json")

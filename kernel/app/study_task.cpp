@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-#include <cstdlib>
+#include "study_task.hpp"
+
 #include <filesystem>
 #include <memory>
 
@@ -29,7 +30,7 @@ void add_study_task(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("study-task", "Run the cells of one Slurm task of a study");
-  command->group("");  // what `velum study --engine slurm` submits; not for people
+  command->group("");  // hidden
   command->add_option("FOLDER", options->folder, "DIR/slurm/<submission>")->required();
   command->add_option("--task", options->task, "number of the task; default: Slurm's")
       ->envname("SLURM_ARRAY_TASK_ID")
