@@ -17,7 +17,7 @@ import cluster  # noqa: E402
 
 SKIPPED = 77
 
-# 40 cells of a quarter of a second.
+# 40 cells of nearly half a second.
 GRAPH = """
 units = "m"
 [node.start]
@@ -28,7 +28,7 @@ in = "start"
 [node.waits]
 use = "test.slow"
 in = "moved"
-time = "0.25 s"
+time = "0.4 s"
 cache = false
 [study]
 repeat = 4
@@ -37,7 +37,7 @@ measure = ["start.count", "moved.by"]
 param = "moved.by"
 range = { from = 1, to = 10, steps = 10 }
 [study.slurm]
-cells = 2
+cells = 5
 """
 
 BAD = """
@@ -92,6 +92,13 @@ class SlurmTest(CommandTest):
     def follow(self, *more):
         return self.start("study", "g.toml", "--engine", "slurm", "--out", "far", *more)
 
+    def amid_a_task(self):
+        """Has some task on n2 run one or two of its cells?"""
+        return any(
+            1 <= file.read_text().count('"cell"') <= 2
+            for line in self.queue("RUNNING") if line.endswith("n2")
+            for file in self.folder.glob(f"far/slurm/*/{line.split('|')[0]}.journal"))
+
     def test_a_node_fails_and_the_follower_is_killed(self):
         self.write("g.toml", GRAPH)
         self.velum("study", "g.toml", "--out", "near", "--jobs", "4")
@@ -99,8 +106,7 @@ class SlurmTest(CommandTest):
         self.wait_for(lambda: self.ended("far") >= 3)
         follower.send_signal(signal.SIGKILL)
         follower.communicate()
-        self.wait_for(lambda: any(line.endswith("n2") for line in self.queue("RUNNING")))
-        lost = [line for line in self.queue("RUNNING") if line.endswith("n2")]
+        self.wait_for(self.amid_a_task)
         self.slurm.kill_node("n2")
         try:
             follower = self.follow("--resume")
@@ -110,8 +116,7 @@ class SlurmTest(CommandTest):
         self.assertEqual(follower.returncode, 0, error)
         self.assertIn("are taken up", error)
         self.assertRegex(error, r"ended as NODE_FAIL on n2")
-        self.assertTrue(lost)
-        self.assertEqual(len(list(self.folder.glob("far/slurm/*/*.lost"))), len(lost), error)
+        self.assertTrue(list(self.folder.glob("far/slurm/*/*.lost")))
         self.assertEqual(len(self.cells("far")), 40)
         self.assert_same("near", "far")
         self.assertIn("v10", out)
@@ -152,13 +157,13 @@ class SlurmTest(CommandTest):
         self.assert_same("near", "far")
 
     def test_cancelled_tasks_are_not_submitted_again(self):
-        self.write("g.toml", GRAPH.replace("0.25 s", "30 s"))
+        self.write("g.toml", GRAPH.replace("0.4 s", "30 s"))
         follower = self.follow()
         self.wait_for(lambda: len(self.queue("RUNNING")) > 0)
         self.slurm.run("scancel", "--user=root")
         _, error = follower.communicate(timeout=60)
         self.assertEqual(follower.returncode, 130, error)
-        self.assertIn("20 tasks were cancelled", error)
+        self.assertIn("8 tasks were cancelled", error)
         self.assertEqual(len(list(self.folder.glob("far/slurm/*"))), 1)
 
     def test_what_slurm_refuses_is_said(self):
