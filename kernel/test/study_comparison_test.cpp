@@ -117,7 +117,7 @@ TEST_CASE("the tables hold every cell, also the failed ones") {
         "variant,repeat,seed,status,message,method,error.rms [m]\n"
         "v1,1,1,ok,,m0,0.25\n"
         "v2,1,1,crashed,\"a \"\"quoted\"\", line\",m1,\n");
-  const auto all = json(made, outcomes, found, "g.toml");
+  const auto all = velum::run::Json::parse(json(made, outcomes, found, "g.toml"));
   CHECK(all["measures"]["error.rms"]["better"] == "lower");
   CHECK(all["variants"][0]["summary"]["error.rms"]["rank"] == 1);
   CHECK(all["variants"][1]["status"] == "crashed");
