@@ -6,8 +6,8 @@ simulated scans keep, and with as many lines.
 
 live.py VELUM GRAPHS --faults: what becomes of a recording when the scanner misbehaves.
 
-live.py VELUM GRAPHS --long: two scanners at 100 Hz and 1/6 degree, 30,000 revolutions each, recorded and
-replayed: no line lost, memory flat.
+live.py VELUM GRAPHS --long: two scanners at 100 Hz and 1/6 degree, 30,000 revolutions each, as fast as they
+go: no line lost, memory flat.
 """
 import json
 import pathlib
