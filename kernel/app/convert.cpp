@@ -42,7 +42,9 @@ void convert(const Options& options) {
                              }});
   plugins::Registry registry;
   std::map<std::string, std::string> settings = {{"file", options.in.string()}};
-  if (!options.units.empty() && from != FileKind::recording) settings["units"] = options.units;
+  // STEP, IGES and recordings name their units.
+  if (!options.units.empty() && read != FileKind::surface && read != FileKind::recording)
+    settings["units"] = options.units;
   try {
     const Results results = run::run_single(registry, reader_of(read), settings, {}, context);
     const Value& value = results.at(0).value();

@@ -7,11 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <span>
-#include <sstream>
-#include <vector>
+#include <string>
 
+#include "file_content.hpp"
 #include "files/descriptor.hpp"
 #include "velum/error.hpp"
 
@@ -22,12 +21,13 @@ namespace fs = std::filesystem;
 
 constexpr std::array kClouds = {".pcd", ".xyz", ".txt", ".csv", ".tsv", ".asc",
                                 ".pts", ".las", ".3d",  ".ply", ".vtk"};
-constexpr std::array kMeshes = {".ply", ".stl", ".obj", ".off", ".vtk"};
+constexpr std::array kMeshes = {".ply", ".stl", ".obj", ".off", ".vtk", ".glb"};
+constexpr std::array kSurfaces = {".step", ".stp", ".iges", ".igs"};
 constexpr std::array kTransforms = {".json", ".txt"};
 constexpr const char* kKnown =
     "known: pcd, ply, las and vrec (both read only), xyz, txt, csv, vtk for clouds; ply, stl, obj, "
-    "off, vtk for "
-    "meshes; json, txt for transforms";
+    "off, vtk, glb "
+    "for meshes; step, iges for surfaces; json, txt for transforms";
 
 std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -54,31 +54,30 @@ std::string beginning_of(const fs::path& path) {
   return text;
 }
 
-bool has_faces(const std::string& extension, const std::string& text) {
-  if (extension == ".vtk") return text.find("POLYGONS") != std::string::npos;
-  const std::size_t at = text.find("element face ");
-  return at != std::string::npos && text.compare(at, 14, "element face 0") != 0;
-}
-
-// Four rows of four numbers, the last one 0 0 0 1.
-bool is_matrix(const std::string& text) {
-  std::istringstream words(text);
-  std::vector<std::string> numbers;
-  for (std::string word; words >> word && numbers.size() < 17;)
-    if (!word.starts_with("#")) numbers.push_back(word);
-  if (numbers.size() != 16) return false;
-  for (std::size_t i = 12; i < 16; ++i) {
-    double number = -1.0;
-    std::from_chars(numbers[i].data(), numbers[i].data() + numbers[i].size(), number);
-    if (number != (i == 15 ? 1.0 : 0.0)) return false;
-  }
-  return true;
-}
-
-[[noreturn]] void unknown(const fs::path& path) {
-  throw Error(Fault::graph, fmt::format("'{}' is no format that is known", extension_of(path)))
+[[noreturn]] void unknown(const fs::path& path, const std::string& content) {
+  const std::string extension = extension_of(path);
+  throw Error(Fault::graph,
+              (extension.empty() ? "the name has no ending that tells a format"
+                                 : fmt::format("'{}' is no format that is known", extension)) +
+                  content)
       .at(path.string())
       .hint(kKnown);
+}
+
+const char* name_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::cloud:
+      return "cloud";
+    case FileKind::mesh:
+      return "mesh";
+    case FileKind::surface:
+      return "surface";
+    case FileKind::transform:
+      return "transform";
+    case FileKind::recording:
+      break;
+  }
+  return "recording";
 }
 
 }  // namespace
@@ -86,44 +85,46 @@ bool is_matrix(const std::string& text) {
 FileKind kind_of_input(const fs::path& path) {
   const std::string extension = extension_of(path);
   const std::string text = beginning_of(path);
-  if (text.starts_with("VELUMREC")) return FileKind::recording;
-  if (extension == ".ply" || extension == ".vtk")
-    return has_faces(extension, text) ? FileKind::mesh : FileKind::cloud;
+  std::error_code failed;
+  if (const auto kind = kind_by_content(text, fs::file_size(path, failed))) return *kind;
   if (extension == ".json") return FileKind::transform;
-  if (extension == ".txt" && is_matrix(text)) return FileKind::transform;
-  if (is_one_of(extension, kClouds)) return FileKind::cloud;
-  if (is_one_of(extension, kMeshes)) return FileKind::mesh;
-  unknown(path);
+  if (is_one_of(extension, kSurfaces)) return FileKind::surface;
+  const bool numbers = begins_with_numbers(text);
+  const bool named = is_one_of(extension, kClouds) || is_one_of(extension, kMeshes);
+  if ((extension == ".txt" || !named) && is_matrix(text)) return FileKind::transform;
+  if (is_one_of(extension, kClouds) || (!named && numbers)) return FileKind::cloud;
+  if (named) return FileKind::mesh;
+  unknown(path, ", and its content is none");
 }
 
 FileKind kind_of_output(const fs::path& path, FileKind input) {
   if (input == FileKind::recording) input = FileKind::cloud;  // that is what it becomes
   const std::string extension = extension_of(path);
-  const bool cloud = is_one_of(extension, kClouds) && extension != ".las";
+  const bool cloud = is_one_of(extension, kClouds);
   const bool mesh = is_one_of(extension, kMeshes);
+  const bool surface = is_one_of(extension, kSurfaces);
   const bool transform = is_one_of(extension, kTransforms);
+  if (!cloud && !mesh && !surface && !transform) unknown(path, "");
+  if (extension == ".las")
+    throw Error(Fault::graph, "LAS can only be read").at(path.string()).hint(kKnown);
   if (input == FileKind::transform && transform) return input;
+  // A surface is written as itself or as its triangles.
+  if (input == FileKind::surface && (surface || mesh)) return input;
   if (input == FileKind::mesh && mesh) return input;
-  if (input != FileKind::transform && cloud) return FileKind::cloud;
-  if (!cloud && !mesh && !transform) unknown(path);
-  throw Error(Fault::graph, fmt::format("a {} cannot be written as '{}'",
-                                        input == FileKind::cloud  ? "cloud"
-                                        : input == FileKind::mesh ? "mesh"
-                                                                  : "transform",
-                                        extension))
+  if ((input == FileKind::cloud || input == FileKind::mesh) && cloud) return FileKind::cloud;
+  throw Error(Fault::graph,
+              fmt::format("a {} cannot be written as '{}'", name_of(input), extension))
       .at(path.string())
       .hint(kKnown);
 }
 
 std::string reader_of(FileKind kind) {
-  if (kind == FileKind::cloud) return "io.read_cloud";
   if (kind == FileKind::recording) return "devices.replay";
-  return kind == FileKind::mesh ? "io.read_mesh" : "io.read_transform";
+  return std::string("io.read_") + name_of(kind);
 }
 
 std::string writer_of(FileKind kind) {
-  if (kind == FileKind::cloud) return "io.write_cloud";
-  return kind == FileKind::mesh ? "io.write_mesh" : "io.write_transform";
+  return std::string("io.write_") + name_of(kind);
 }
 
 }  // namespace velum::app

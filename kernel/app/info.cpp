@@ -69,6 +69,20 @@ class Describe {
     return text;
   }
   std::string operator()(const Mesh& mesh) const { return (*this)(mesh.vertices()); }
+  std::string operator()(const Surface& surface) const {
+    const Eigen::Vector3d low = surface.control.rowwise().minCoeff() + surface.origin;
+    const Eigen::Vector3d high = surface.control.rowwise().maxCoeff() + surface.origin;
+    const double size = (high - low).norm() / unit_.metres;
+    std::string text =
+        line("extent", fmt::format("{} to {} {} (of its control points)", place(in_unit(low), size),
+                                   place(in_unit(high), size), unit_.name));
+    text += line("degrees", fmt::format("{} and {}", surface.degree_u, surface.degree_v));
+    text += line("weights", surface.weights.size() > 0 ? "yes (a NURBS)" : "no (a B-spline)");
+    text += line("borders", surface.trimming.empty()
+                                ? "not trimmed"
+                                : fmt::format("{} trimming loops", surface.trimming.size()));
+    return text;
+  }
   std::string operator()(const Transform& transform) const {
     std::string text = line("frames", transform.source + " -> " + transform.target);
     for (int row = 0; row < 4; ++row) {
@@ -107,7 +121,9 @@ void info(const Options& options) {
                              .log = {}});
   plugins::Registry registry;
   std::map<std::string, std::string> settings = {{"file", options.file.string()}};
-  if (!options.units.empty() && kind != FileKind::recording) settings["units"] = options.units;
+  // STEP and IGES do, and recordings.
+  const bool names_unit = kind == FileKind::surface || kind == FileKind::recording;
+  if (!options.units.empty() && !names_unit) settings["units"] = options.units;
   try {
     const Results results = run::run_single(registry, reader_of(kind), settings, {}, context);
     const Value& value = results.at(0).value();
@@ -115,8 +131,9 @@ void info(const Options& options) {
     std::string text = line("file", options.file.string());
     text +=
         line(std::string(name_of(type_of(value))).c_str(), run::in_words(run::summarise(value)));
-    text += line("units", options.units.empty() ? "m (say --units when the file has others)"
-                                                : options.units);
+    const char* otherwise = names_unit ? "m (the file names its own; --units for others here)"
+                                       : "m (say --units when the file has others)";
+    text += line("units", options.units.empty() ? otherwise : options.units);
     text += std::visit(Describe(unit), value);
     for (const std::string& warning : context.warnings()) text += line("note", warning);
     print(text);
@@ -129,7 +146,8 @@ void info(const Options& options) {
 
 void add_info(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", "What a cloud, mesh or transform file holds");
+  CLI::App* command =
+      app.add_subcommand("info", "What a cloud, mesh, surface or transform file holds");
   command->footer("Example:\n  velum info scan.pcd --units mm");
   command->add_option("FILE", options->file, "the file to read")->required();
   command->add_option("--units", options->units, "unit of the lengths in it; default: m")

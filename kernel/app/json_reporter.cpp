@@ -5,6 +5,7 @@
 #include <map>
 
 #include "console.hpp"
+#include "graph/place.hpp"
 #include "reporters.hpp"
 
 namespace velum::app {
@@ -18,8 +19,7 @@ class JsonReporter final : public Reporter {
     for (const graph::Diagnostic& each : diagnostics)
       emit("error", {{"code", each.code},
                      {"message", each.message},
-                     {"where", fmt::format("{}:{}:{}", each.file, each.where.begin.line,
-                                           each.where.begin.column)},
+                     {"where", graph::place_of(each)},
                      {"hint", each.hint}});
     emit("end", {{"status", "failed"}, {"exit", graph::exit_status(diagnostics)}});
     complain(graph::format(diagnostics));

@@ -14,6 +14,7 @@
 #include "report/watch.hpp"
 #include "run/compare.hpp"
 #include "run/output_folder.hpp"
+#include "run/record_file.hpp"
 #include "run/signals.hpp"
 #include "velum/files.hpp"
 
@@ -115,9 +116,8 @@ void run_report(const Options& options, const report::Page& page, plugins::Regis
   try {
     report::leave_run_report(options.folder, page, views_again(record, options, registry),
                              registry);
-  } catch (const run::Json::exception& error) {
-    throw Error(Fault::input, fmt::format("not a run record: {}", error.what()))
-        .at((options.folder / run::kRecordName).string());
+  } catch (const run::Json::exception&) {
+    throw run::damaged_record(options.folder / run::kRecordName);
   }
 }
 

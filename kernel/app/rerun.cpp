@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The Velum authors
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -11,8 +10,8 @@
 #include "console.hpp"
 #include "reporters.hpp"
 #include "run/compare.hpp"
+#include "run/record_file.hpp"
 #include "run/signals.hpp"
-#include "velum/files.hpp"
 
 namespace velum::app {
 namespace {
@@ -51,19 +50,12 @@ int rerun(const run::Json& record, const Options& options, const fs::path& out) 
   return differences.empty() ? 0 : static_cast<int>(Fault::stage);
 }
 
-run::Json read_record(const fs::path& path) {
-  const FileContent content(path);
-  try {
-    return run::Json::parse(content.text());
-  } catch (const run::Json::exception& error) {
-    throw Error(Fault::input, fmt::format("not a run record: {}", error.what())).at(path.string());
-  }
-}
-
 void rerun_command(const Options& options) {
   if (!fs::exists(options.record))
     throw Error(Fault::graph, "there is no such file").at(options.record.string());
-  const run::Json record = read_record(options.record);
+  const run::Json record =
+      run::read_record(options.record, {"graph.resolved", "graph.path", "threads", "seed", "nodes",
+                                        "inputs", "files", "machine.instruction_set"});
   int status = 0;
   try {
     if (options.out.empty()) {
@@ -72,9 +64,8 @@ void rerun_command(const Options& options) {
     } else {
       status = rerun(record, options, options.out);
     }
-  } catch (const run::Json::exception& error) {
-    throw Error(Fault::input, fmt::format("not a run record: {}", error.what()))
-        .at(options.record.string());
+  } catch (const run::Json::exception&) {
+    throw run::damaged_record(options.record);
   }
   if (status != 0) throw Exit{status};
 }

@@ -11,6 +11,8 @@
 #include <string>
 
 #include "graph/diagnostic.hpp"
+#include "graph/place.hpp"
+#include "graph/printable.hpp"
 
 using namespace velum::graph;  // NOLINT
 namespace fs = std::filesystem;
@@ -51,6 +53,30 @@ TEST_CASE("carets count characters, not bytes, and stay on the line") {
         "error[E0203] g.toml:1:6  message\n    1 |    a = [\n      |        ^\n");
   CHECK(shown("abc\n", {{1, 9}, {1, 900}}) ==
         "error[E0203] g.toml:1:9  message\n    1 |   abc\n      |           ^\n");
+}
+
+TEST_CASE("what steers a terminal is escaped, letters stay, and the caret is right") {
+  CHECK(shown("a\x1B[31m é\xFF b", {{1, 10}, {1, 11}}) ==
+        "error[E0203] g.toml:1:10  message\n    1 |   a\\x1B[31m é\\xFF b\n      |   " +
+            std::string(15, ' ') + "^\n");
+  CHECK(shown("\u202Eb", {{1, 1}, {1, 2}}) ==
+        "error[E0203] g.toml:1:1  message\n    1 |   \\u202Eb\n      |   ^^^^^^\n");
+  CHECK(shown("\xC2\x9B"
+              "2J",
+              {{1, 2}, {1, 3}}) ==
+        "error[E0203] g.toml:1:2  message\n    1 |   \\x9B2J\n      |       ^\n");
+  CHECK(shown("x", {{1, 1}, {1, 2}}, "did you mean '\x07'?").find("'\\x07'?") != std::string::npos);
+  // Overlong forms, surrogates and cut sequences are no UTF-8.
+  CHECK(printable("\xC0\xAF \xED\xA0\x80 \xE2\x82") == "\\xC0\\xAF \\xED\\xA0\\x80 \\xE2\\x82");
+  CHECK(printable("a\tb\nc \u00df \u4e2d") == "a b\nc \u00df \u4e2d");
+}
+
+TEST_CASE("a place without a line is the file") {
+  Diagnostic diagnostic;
+  diagnostic.file = "g.toml";
+  CHECK(place_of(diagnostic) == "g.toml");
+  diagnostic.where = {{3, 5}, {3, 6}};
+  CHECK(place_of(diagnostic) == "g.toml:3:5");
 }
 
 TEST_CASE("long lines are cut around the place") {

@@ -185,6 +185,35 @@ TEST_CASE("columns count characters, and a byte order mark is none") {
   CHECK(root.entries.at(0).value.items.at(1).where.begin == toml::Position{1, 12});
 }
 
+TEST_CASE("slips in values are told with what to write, at the value") {
+  const std::string quotes = " is text without quotes | text needs quotes: ";
+  CHECK(refusal("size = 5 mm") == "1:8 '5 mm'" + quotes + "\"5 mm\"");
+  CHECK(refusal("a = 1\nsize = -2.5mm # c") == "2:8 '-2.5mm'" + quotes + "\"-2.5mm\"");
+  CHECK(refusal("share = 10 %") == "1:9 '10 %'" + quotes + "\"10 %\"");
+  CHECK(refusal("use = io.read_cloud\r\n") == "1:7 'io.read_cloud'" + quotes + "\"io.read_cloud\"");
+  CHECK(refusal("size = mm") == "1:8 'mm'" + quotes + "\"mm\"");
+  CHECK(refusal("a = [\"\u00e9\", mm]") == "1:11 'mm'" + quotes + "\"mm\"");
+  CHECK(refusal("a = { b = 1, size = 5 mm }") == "1:21 '5 mm'" + quotes + "\"5 mm\"");
+  CHECK(refusal("a = True") == "1:5 'True' is no value | write true, or \"...\" for text");
+  CHECK(refusal("a = off") == "1:5 'off' is no value | write false, or \"...\" for text");
+  CHECK(refusal("max_edge = 1e400") ==
+        "1:12 1e400 is beyond what a number can be | numbers go to 1.7e308, and down to 5e-324");
+  CHECK(refusal("seed = 18446744073709551615\n") ==
+        "1:8 18446744073709551615 is beyond what a whole number can be | whole numbers go to "
+        "9223372036854775807");
+  CHECK(refusal("a = .5").starts_with("1:5 '.5' is no number of TOML"));
+  CHECK(refusal("a = 1,5").starts_with("1:5 a comma after 1 | numbers have a point"));
+}
+
+TEST_CASE("other mistakes keep the parser's place and words") {
+  CHECK(refusal("a = 2023-13-45").find("quotes") == std::string::npos);
+  CHECK(refusal("a = 0xZZ").find("quotes") == std::string::npos);
+  CHECK(refusal("a = mm\nb = 1").starts_with("1:5"));
+  CHECK(refusal("mm = 1\nmm = 2").find("quotes") == std::string::npos);
+  CHECK(refusal("[mm]\n[mm]").find("quotes") == std::string::npos);
+  CHECK(refusal("a = \"\"\"\nb = mm \\q\n\"\"\"").find("quotes") == std::string::npos);
+}
+
 TEST_CASE("what toml++ 3.3.0 does not survive is refused before it") {
   CHECK(refusal("[\n[") == "1:2 a key is missing here");
   CHECK(refusal("[") == "1:2 a key is missing here");

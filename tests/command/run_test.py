@@ -3,6 +3,7 @@
 """Runs that go well: what is printed, written, kept and found again."""
 import json
 import os
+import pathlib
 import pty
 import re
 import statistics
@@ -142,8 +143,35 @@ class RunTest(CommandTest):
         self.assertIn("differs: node 'a', output 'cloud'", out)
         self.assertIn("differs: file 'n.txt'", out)
         self.velum("rerun", "nowhere.json", status=2)
-        self.write("bad.json", "{}")
-        self.velum("rerun", "bad.json", status=5)
+        record = json.loads((self.folder / "g.out/run.json").read_text())
+        del record["machine"]["instruction_set"]
+        record["graph"]["path"] = 7
+        for text, said in (("{}", "it has no 'graph.resolved'"),
+                           ('[node.a]\nuse = "b"\n', "it is no JSON from byte "),
+                           ("[1]", "found JSON of kind array, expected an object"),
+                           ("1e999", "a number in it is out of range"),
+                           (json.dumps(record), "it has no 'machine.instruction_set'")):
+            self.write("bad.json", text)
+            _, error = self.velum("rerun", "bad.json", status=5)
+            self.assertIn("not a run record: " + said, error)
+            self.assertIn("bad.json", error)
+            self.assertNotIn("json.exception", error)
+        record["machine"]["instruction_set"] = "x"
+        self.write("bad.json", json.dumps(record))
+        _, error = self.velum("rerun", "bad.json", status=5)
+        self.assertIn("of another kind than a run writes", error)
+        self.assertNotIn("json.exception", error)
+
+    def test_a_graph_that_is_not_there_has_no_line(self):
+        out, _ = self.velum("run", "nowhere.toml", "--json", status=2)
+        errors = [e for e in map(json.loads, out.splitlines()) if e["event"] == "error"]
+        self.assertEqual([e["where"] for e in errors], ["nowhere.toml"])
+
+    def test_bytes_of_a_broken_graph_do_not_reach_the_terminal(self):
+        self.write("n.toml", "a = \x1b[31mred \u00df")
+        _, error = self.velum("check", "n.toml", status=2)
+        self.assertNotIn("\x1b", error)
+        self.assertIn("\\x1B[31mred \u00df", error)
 
     def test_schema(self):
         out, _ = self.velum("schema")
@@ -162,6 +190,13 @@ class RunTest(CommandTest):
         self.assertRegex(out, r"spacing +100\d(\.\d+)? mm")
         self.velum("convert", "a.xyz", "b.stl", status=2)
         self.velum("convert", "a.xyz", "b.nothing", status=2)
+        _, error = self.velum("convert", "a.xyz", "b.las", status=2)
+        self.assertIn("LAS can only be read", error)
+        _, error = self.velum("convert", "a.xyz", "b", status=2)
+        self.assertIn("the name has no ending that tells a format", error)
+        self.assertNotIn("''", error)
+        _, error = self.velum("convert", "a.xyz", "b.step", status=2)
+        self.assertIn("a cloud cannot be written as '.step'", error)
         self.velum("info", "nowhere.ply", status=2)
         self.write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 5\n")
         _, error = self.velum("info", "bad.ply", status=5)
@@ -181,6 +216,44 @@ class RunTest(CommandTest):
         out, _ = self.velum("info", "t.json")
         self.assertIn("transform", out)
         self.assertRegex(out, r"moves +10\.48\d* m")
+
+    def test_the_content_decides_not_the_name(self):
+        self.needs("io.read_mesh")
+        self.needs("io.read_cloud")
+        ply = ("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n{}")
+        stl = ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+               "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n")
+        for name, text, kind in (("PLY__mesh", ply.format(1, "3 0 1 2\n"), "mesh"),
+                                 ("PLY.txt", ply.format(0, ""), "cloud"),
+                                 ("STL__a", stl, "mesh"),
+                                 ("mesh.xyz", stl, "mesh"),
+                                 ("v.pcd", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "mesh"),
+                                 ("points", "# x y z\n1 2 3\n4 5 6\n", "cloud")):
+            self.write(name, text)
+            out, _ = self.velum("info", name)
+            self.assertRegex(out, kind + r" +\d", name)
+        self.write("note", "no numbers at all\n")
+        _, error = self.velum("info", "note", status=2)
+        self.assertIn("the name has no ending that tells a format, and its content is none", error)
+
+    def test_convert_surface_and_glb(self):
+        self.needs("io.read_surface")
+        self.needs("io.write_surface")
+        self.needs("io.read_mesh")
+        face = pathlib.Path(__file__).parents[2] / "plugins/io/read_surface/face.step"
+        out, _ = self.velum("info", face, "--units", "mm")
+        self.assertRegex(out, r"surface +\d+ control points")
+        self.assertIn("degrees", out)
+        self.velum("convert", face, "a.igs")
+        self.velum("convert", "a.igs", "b.stp")
+        for name in ("c.stl", "c.obj", "c.ply", "c.off", "c.vtk", "c.glb"):
+            self.velum("convert", face, name)
+            out, _ = self.velum("info", name)
+            self.assertRegex(out, r"mesh +\d+ triangles", name)
+        _, error = self.velum("convert", face, "c.pcd", status=2)
+        self.assertIn("a surface cannot be written as '.pcd'", error)
 
     def test_an_empty_run_takes_milliseconds(self):
         self.write("g.toml", '[node.a]\nuse = "test.numbers"\ncount = 4\n')

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "graph/place.hpp"
+#include "graph/printable.hpp"
+
 namespace velum::graph {
 namespace {
 
@@ -20,21 +23,14 @@ bool starts_code_point(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
 }
 
-/// The code points from `begin` (counted from 0) on, at most `count`.
-std::string_view code_points(std::string_view text, std::size_t begin, std::size_t count) {
-  std::size_t seen = 0;
-  std::size_t from = text.size();
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!starts_code_point(text[i])) continue;
-    if (seen == begin) from = i;
-    if (seen == begin + count) return text.substr(from, i - from);
-    ++seen;
-  }
-  return text.substr(from);
-}
-
-std::size_t length(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, starts_code_point));
+/// How many columns the cells [begin, end) take, where those that are not there take one each.
+std::size_t width(const std::vector<std::string>& cells, std::size_t begin, std::size_t end) {
+  std::size_t columns = 0;
+  for (std::size_t i = begin; i < end; ++i)
+    columns += i < cells.size()
+                   ? static_cast<std::size_t>(std::ranges::count_if(cells[i], starts_code_point))
+                   : 1;
+  return columns;
 }
 
 // Optimal string alignment: insertions, deletions, substitutions and swaps of neighbours.
@@ -57,22 +53,22 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string excerpt(const Diagnostic& diagnostic, const std::string& advice) {
   const std::string number = fmt::format("{:>5}", diagnostic.where.begin.line);
   const std::string gutter(number.size(), ' ');
-  const std::string& line = diagnostic.source_line;
+  const std::vector<std::string> cells = printable_cells(diagnostic.source_line);
   const std::size_t column =
       diagnostic.where.begin.column == 0 ? 0 : diagnostic.where.begin.column - 1;
   // A long line is shown from a little before the place.
   const std::size_t skipped = column > kMaxColumns * 3 / 4 ? column - kMaxColumns / 4 : 0;
-  std::string shown(code_points(line, skipped, kMaxColumns));
-  std::ranges::replace_if(
-      shown, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  const std::size_t room = std::min(cells.size(), skipped + kMaxColumns);
+  std::string shown;
+  for (std::size_t i = skipped; i < room; ++i) shown += cells[i];
 
   const bool one_line = diagnostic.where.end.line == diagnostic.where.begin.line;
-  const std::size_t end = one_line ? diagnostic.where.end.column - 1 : length(line);
-  const std::size_t room = length(shown) + skipped;
-  const std::size_t carets = std::max<std::size_t>(std::min(end, room), column + 1) - column;
+  const std::size_t last = one_line ? diagnostic.where.end.column - 1 : cells.size();
+  const std::size_t end = std::max<std::size_t>(std::min(last, room), column + 1);
   return fmt::format("{} |   {}\n{} |   {}{}{}{}\n", number, shown, gutter,
-                     std::string(column - skipped, ' '), std::string(carets, '^'),
-                     advice.empty() ? "" : " ", advice);
+                     std::string(width(cells, skipped, column), ' '),
+                     std::string(width(cells, column, end), '^'), advice.empty() ? "" : " ",
+                     advice);
 }
 
 }  // namespace
@@ -133,14 +129,19 @@ std::string known_list(const std::vector<std::string>& known) {
   return fmt::format("known: {}{}", fmt::join(first, ", "), shown < known.size() ? ", ..." : "");
 }
 
+std::string place_of(const Diagnostic& diagnostic) {
+  if (diagnostic.where.begin.line == 0) return diagnostic.file;
+  return fmt::format("{}:{}:{}", diagnostic.file, diagnostic.where.begin.line,
+                     diagnostic.where.begin.column);
+}
+
 std::string format(const Diagnostic& diagnostic) {
   std::string advice = diagnostic.hint;
   if (!diagnostic.known.empty())
     advice += fmt::format("{}({})", advice.empty() ? "" : "  ", diagnostic.known);
-  std::string place = diagnostic.file;
-  if (diagnostic.where.begin.line > 0)
-    place += fmt::format(":{}:{}", diagnostic.where.begin.line, diagnostic.where.begin.column);
-  std::string text = fmt::format("error[{}] {}  {}\n", diagnostic.code, place, diagnostic.message);
+  advice = printable(advice);
+  std::string text = fmt::format("error[{}] {}  {}\n", diagnostic.code,
+                                 printable(place_of(diagnostic)), printable(diagnostic.message));
   if (!diagnostic.source_line.empty()) return text + excerpt(diagnostic, advice);
   return advice.empty() ? text : text + fmt::format("      = {}\n", advice);
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "graph/toml_form.hpp"
+#include "graph/toml_slip.hpp"
 
 namespace velum::graph::toml {
 // An assertion of toml++ 3.3.0 that fails on a document is a refusal of the document, never an
@@ -162,7 +163,7 @@ Node parse(std::string_view document) {
   } catch (const ::toml::parse_error& error) {
     Region where = region_of(error.source());
     where.end = std::max(where.end, Position{where.begin.line, where.begin.column + 1});
-    throw SyntaxError(where, reason(error.description()));
+    throw explained(document, where, reason(error.description()));
   }
 }
 

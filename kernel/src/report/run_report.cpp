@@ -7,6 +7,7 @@
 #include "plugins/describe.hpp"
 #include "report/views_file.hpp"
 #include "run/output_folder.hpp"
+#include "run/record_file.hpp"
 #include "velum/files.hpp"
 
 namespace velum::report {
@@ -80,14 +81,7 @@ void write_run_report(const std::filesystem::path& folder, const Page& page, Vie
 }
 
 run::Json read_record(const std::filesystem::path& file) {
-  const FileContent content(file);
-  try {
-    run::Json record = run::Json::parse(content.text());
-    for (const char* key : {"velum", "graph", "nodes"}) static_cast<void>(record.at(key));
-    return record;
-  } catch (const run::Json::exception& error) {
-    throw Error(Fault::input, std::string("not a run record: ") + error.what()).at(file.string());
-  }
+  return run::read_record(file, {"velum", "graph.title", "nodes"});
 }
 
 }  // namespace velum::report

@@ -8,6 +8,7 @@
 #include <cerrno>
 
 #include "files/descriptor.hpp"
+#include "graph/place.hpp"
 #include "run/node_error.hpp"
 #include "run/run.hpp"
 #include "study/cell_views.hpp"
@@ -106,8 +107,7 @@ Outcome invalid(const graph::Diagnostics& diagnostics) {
   const graph::Diagnostic& first = diagnostics.front();
   Outcome outcome;
   outcome.status = Status::invalid;
-  outcome.message = fmt::format("{}:{}:{} {}", first.file, first.where.begin.line,
-                                first.where.begin.column, first.message);
+  outcome.message = fmt::format("{} {}", graph::place_of(first), first.message);
   if (diagnostics.size() > 1)
     outcome.message += fmt::format(", and {} more", diagnostics.size() - 1);
   return outcome;
