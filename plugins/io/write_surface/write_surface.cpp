@@ -18,7 +18,7 @@ using velum::Surface;
 using velum::cad::Exchange;
 using velum::formats::MeshFormat;
 
-enum class Format { automatic, step, iges, stl, obj, ply };
+enum class Format { automatic, step, iges, stl, obj, ply, off, vtk, glb };
 
 /// Share of the control net's extent that an edge of the mesh has unless said otherwise.
 constexpr double kMeshShare = 0.01;
@@ -33,20 +33,23 @@ struct WriteSurface {
   static auto about() {
     return velum::About<WriteSurface>(
                "Writes a trimmed B-spline surface: STEP AP214 and IGES as a face with its border "
-               "curves, STL, OBJ and PLY as triangles.")
+               "curves, STL, OBJ, PLY, OFF, VTK and GLB as triangles.")
         .in("surface", "what to write")
         .param(&WriteSurface::file, "file", "the file to write")
         .required()
         .param(&WriteSurface::units, "units",
-               "unit of STL, OBJ and PLY, which do not name theirs; STEP and IGES are in "
-               "millimetres and say so")
+               "unit of meshes that do not name theirs; STEP and IGES are in millimetres and say "
+               "so, GLB is in metres")
         .choice(&WriteSurface::format, "format", "how to write it",
                 {{"auto", Format::automatic, "by the file's extension"},
                  {"step", Format::step, "STEP AP214 (.step, .stp): exact, with border curves"},
                  {"iges", Format::iges, "IGES 5.3 (.iges, .igs): exact, with border curves"},
                  {"stl", Format::stl, "STL, binary: its mesh"},
                  {"obj", Format::obj, "OBJ: its mesh"},
-                 {"ply", Format::ply, "PLY, binary: its mesh"}})
+                 {"ply", Format::ply, "PLY, binary: its mesh"},
+                 {"off", Format::off, "OFF: its mesh"},
+                 {"vtk", Format::vtk, "legacy VTK, binary: its mesh"},
+                 {"glb", Format::glb, "binary glTF 2.0: its mesh"}})
         .param(&WriteSurface::tolerance, "tolerance",
                "how closely the border curves in space follow those on the surface",
                velum::Range{.low = 1e-7, .high = 1e-3})
@@ -74,12 +77,14 @@ Format WriteSurface::chosen() const {
   constexpr std::pair<std::string_view, Format> kKnown[] = {
       {".step", Format::step}, {".stp", Format::step}, {".iges", Format::iges},
       {".igs", Format::iges},  {".stl", Format::stl},  {".obj", Format::obj},
-      {".ply", Format::ply}};
+      {".ply", Format::ply},   {".off", Format::off},  {".vtk", Format::vtk},
+      {".glb", Format::glb}};
   for (const auto& [known, value] : kKnown)
     if (known == extension) return value;
-  throw velum::Error(velum::Fault::graph,
-                     "no format is known for '" + file.path.filename().string() +
-                         "', expected .step, .stp, .iges, .igs, .stl, .obj or .ply")
+  throw velum::Error(
+      velum::Fault::graph,
+      "no format is known for '" + file.path.filename().string() +
+          "', expected .step, .stp, .iges, .igs, .stl, .obj, .ply, .off, .vtk or .glb")
       .at("file")
       .hint("name the format by format = \"...\"");
 }
@@ -120,6 +125,12 @@ void WriteSurface::operator()(const Surface& surface, Context& context) const {
       return write_triangles(surface, MeshFormat::stl, context);
     case Format::obj:
       return write_triangles(surface, MeshFormat::obj, context);
+    case Format::off:
+      return write_triangles(surface, MeshFormat::off, context);
+    case Format::vtk:
+      return write_triangles(surface, MeshFormat::vtk, context);
+    case Format::glb:
+      return write_triangles(surface, MeshFormat::glb, context);
     case Format::automatic:
     case Format::ply:
       return write_triangles(surface, MeshFormat::ply, context);

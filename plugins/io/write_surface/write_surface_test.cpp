@@ -89,7 +89,7 @@ bool has(const std::string& text, const std::string& what) {
 }
 
 constexpr const char* kExact[] = {"step", "iges"};
-constexpr const char* kFormats[] = {"step", "iges", "stl", "obj", "ply"};
+constexpr const char* kFormats[] = {"step", "iges", "stl", "obj", "ply", "off", "vtk", "glb"};
 
 }  // namespace
 

@@ -20,7 +20,7 @@ Written write_exchange(const std::filesystem::path& path, const Surface& surface
   context.check();
   AtomicFile file(path);
   guarded(Fault::output, "writing " + path.string(),
-          [&] { write_face(wrote, format, file.aside(), path.stem().string()); });
+          [&] { write_shape(wrote, format, file.aside(), path.stem().string()); });
   context.check();
   context.progress(0.5);
   Written found;

@@ -18,8 +18,6 @@
 #include <StepBasic_Product.hxx>
 #include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <mutex>
 #include <new>
@@ -53,23 +51,23 @@ void name_products(const StepData_StepModel& model, const std::string& name) {
   }
 }
 
-void write_step(const TopoDS_Face& face, const std::string& path, const std::string& name) {
+void write_step(const TopoDS_Shape& shape, const std::string& path, const std::string& name) {
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.unit", "MM");
   Interface_Static::SetCVal("write.step.product.name", name.c_str());
   STEPControl_Writer writer;
-  if (writer.Transfer(face, STEPControl_AsIs) != IFSelect_RetDone)
+  if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone)
     throw Error(Fault::stage, "OpenCASCADE cannot express the surface in STEP");
   set_step_header(writer, name);
   name_products(*writer.Model(), name);
   writer.Write(path.c_str());
 }
 
-void write_iges(const TopoDS_Face& face, const std::string& path, const std::string& name) {
+void write_iges(const TopoDS_Shape& shape, const std::string& path, const std::string& name) {
   constexpr int kFaces = 0;  // as trimmed surfaces (entity 144), which every reader knows
   IGESControl_Writer writer("MM", kFaces);
-  if (!writer.AddShape(face))
+  if (!writer.AddShape(shape))
     throw Error(Fault::stage, "OpenCASCADE cannot express the surface in IGES");
   writer.ComputeModel();
   IGESData_GlobalSection section = writer.Model()->GlobalSection();
@@ -100,10 +98,13 @@ void check_whole(const std::filesystem::path& path, Exchange format) {
 }
 
 template <class Reader>
-void read_all(const std::filesystem::path& path, TopoDS_Shape& shape) {
+void read_all(const std::filesystem::path& path, Fault fault, TopoDS_Shape& shape) {
   Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone || reader.TransferRoots() < 1)
-    throw Error(Fault::output, "the file that was written cannot be read back").at(path.string());
+    throw Error(fault, fault == Fault::output
+                           ? "the file that was written cannot be read back"
+                           : "OpenCASCADE finds no shape in the file that it understands")
+        .at(path.string());
   shape = reader.OneShape();
 }
 
@@ -123,20 +124,25 @@ void guarded(Fault fault, const std::string& what, const std::function<void()>& 
   }
 }
 
-void write_face(const TopoDS_Face& face, Exchange format, const std::filesystem::path& path,
-                const std::string& name) {
+void write_shape(const TopoDS_Shape& shape, Exchange format, const std::filesystem::path& path,
+                 const std::string& name) {
   if (format == Exchange::step)
-    write_step(face, path.string(), name);
+    write_step(shape, path.string(), name);
   else
-    write_iges(face, path.string(), name);
+    write_iges(shape, path.string(), name);
+}
+
+void transfer(const std::filesystem::path& path, Exchange format, Fault fault,
+              TopoDS_Shape& shape) {
+  if (format == Exchange::step)
+    read_all<STEPControl_Reader>(path, fault, shape);
+  else
+    read_all<IGESControl_Reader>(path, fault, shape);
 }
 
 void read_shape(const std::filesystem::path& path, Exchange format, TopoDS_Shape& shape) {
   check_whole(path, format);
-  if (format == Exchange::step)
-    read_all<STEPControl_Reader>(path, shape);
-  else
-    read_all<IGESControl_Reader>(path, shape);
+  transfer(path, format, Fault::output, shape);
 }
 
 }  // namespace velum::cad
