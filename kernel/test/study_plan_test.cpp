@@ -227,10 +227,6 @@ TEST_CASE("E0601: what cannot be a study") {
   CHECK(wrong("[[study.vary]]\ntitle = \"a\"\nparam = \"down.size\"\nvalues = [1]\n"
               "[[study.vary]]\ntitle = \"b\"\nrows = [{ \"down.size\" = 2 }]\n") ==
         Lines{"axis 'a' and axis 'b' both vary 'down.size' | take one of them away"});
-  CHECK(wrong("[[study.vary]]\ntitle = \"a\"\nnode = \"down\"\n"
-              "alternatives = [{ use = \"resampling.voxel_grid\", size = 3 }]\n"
-              "[[study.vary]]\ntitle = \"b\"\nparam = \"down.size\"\nvalues = [1]\n") ==
-        Lines{"'down.size' is varied by axis 'b': this value would not be used | take it away"});
   // Columns of study.csv.
   CHECK(wrong("[[study.vary]]\ntitle = \"seed\"\nparam = \"down.size\"\nvalues = [1]\n").front() ==
         "an axis cannot be called 'seed': study.csv has that column | give it another title");

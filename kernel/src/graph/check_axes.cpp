@@ -46,26 +46,6 @@ class AxesCheck : public StudyReader {
           }
   }
 
-  /// An alternative that sets what another axis varies: its value would never be used.
-  void alternatives() const {
-    std::map<std::string, std::size_t> varied;
-    for (std::size_t a = 0; a < axes_.size(); ++a)
-      for (const Choice& choice : axes_[a].choices)
-        for (const auto& value : choice.variation.values)
-          varied.emplace(value.node + "." + value.parameter, a);
-    for (const Axis& axis : axes_)
-      for (const Choice& choice : axis.choices)
-        for (const auto& alternative : choice.variation.alternatives)
-          for (const toml::Entry& key : alternative.keys.entries)
-            if (const auto other = varied.find(alternative.node + "." + key.key);
-                other != varied.end())
-              report().error(
-                  "E0601", key.where,
-                  fmt::format("'{}' is varied by axis '{}': this value would not be used",
-                              other->first, axes_[other->second].name),
-                  "take it away");
-  }
-
  private:
   static std::vector<std::string> targets(const Variation& variation) {
     std::vector<std::string> all;
@@ -89,7 +69,6 @@ void check_axes(const Check& check, const std::vector<Axis>& axes,
   const AxesCheck axes_check(check, axes, places);
   axes_check.names();
   axes_check.what_varies();
-  axes_check.alternatives();
 }
 
 }  // namespace velum::graph
