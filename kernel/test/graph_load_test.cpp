@@ -209,7 +209,8 @@ TEST_CASE("E0503: two nodes that write one file") {
 }
 
 TEST_CASE("E0202, E0601: the form of a study") {
-  CHECK(velum::test::mistakes(kScan + R"(
+  CHECK(
+      velum::test::mistakes(kScan + R"(
 [study]
 repeat = 0
 measures = []
@@ -224,20 +225,21 @@ param = "scan"
 values = []
 valeus = 3
 [[study.vary]]
-)") == Lines{
-           "E0206 5:10 'repeat' is 0; it must be at least 1",
-           "E0202 6:1 unknown key 'measures' of [study] | did you mean 'measure'? | known: title, "
-           "repeat, seed, measure, vary, exclude, sample, reference, timing, timeout, memory",
-           "E0404 7:44 the study names 'scna', but there is no such node | did you mean 'scan'? | "
-           "known: scan",
-           "E0601 7:54 a measure is written \"node.name\"",
-           "E0404 9:8 the study names 'scam', but there is no such node | did you mean 'scan'? | "
-           "known: scan",
-           "E0204 10:32 an alternative must be a table such as { use = ... }",
-           "E0601 12:1 an axis of a parameter has either values or files | add values = [...]",
-           "E0601 14:9 'param' is written \"node.name\"", "E0601 15:1 this axis has no values",
-           "E0202 16:1 unknown key 'valeus' of [[study.vary]] | did you mean 'values'? | known: "
-           "title, zip, node, alternatives, param, values, range, files, rows",
-           "E0601 17:1 an axis of a study varies either a node or a parameter | give either node "
-           "and alternatives, or param and values (or range, or files), or rows"});
+)") ==
+      Lines{
+          "E0206 5:10 'repeat' is 0; it must be at least 1",
+          "E0202 6:1 unknown key 'measures' of [study] | did you mean 'measure'? | known: title, "
+          "repeat, seed, measure, vary, exclude, sample, reference, timing, timeout, memory, slurm",
+          "E0404 7:44 the study names 'scna', but there is no such node | did you mean 'scan'? | "
+          "known: scan",
+          "E0601 7:54 a measure is written \"node.name\"",
+          "E0404 9:8 the study names 'scam', but there is no such node | did you mean 'scan'? | "
+          "known: scan",
+          "E0204 10:32 an alternative must be a table such as { use = ... }",
+          "E0601 12:1 an axis of a parameter has either values or files | add values = [...]",
+          "E0601 14:9 'param' is written \"node.name\"", "E0601 15:1 this axis has no values",
+          "E0202 16:1 unknown key 'valeus' of [[study.vary]] | did you mean 'values'? | known: "
+          "title, zip, node, alternatives, param, values, range, files, rows",
+          "E0601 17:1 an axis of a study varies either a node or a parameter | give either node "
+          "and alternatives, or param and values (or range, or files), or rows"});
 }

@@ -251,7 +251,7 @@ class RunTest(CommandTest):
         for name in ("c.stl", "c.obj", "c.ply", "c.off", "c.vtk", "c.glb"):
             self.velum("convert", face, name)
             out, _ = self.velum("info", name)
-            self.assertRegex(out, r"mesh +\d+ triangles", name)
+            self.assertRegex(out, r"mesh +[\d,]+ triangles", name)
         _, error = self.velum("convert", face, "c.pcd", status=2)
         self.assertIn("a surface cannot be written as '.pcd'", error)
 
