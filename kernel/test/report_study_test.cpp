@@ -120,7 +120,7 @@ TEST_CASE("of a very large study the best variants are told") {
 TEST_CASE("what is no study's result is an error") {
   const Folder folder;
   CHECK_THROWS_AS(report_of(folder, {{"velum", "0"}}), Error);
-  Json study = study_of({variant("v1", {"ok"}, 1)});
+  Json study = study_of(Json::array({variant("v1", {"ok"}, 1)}));
   study["variants"][0].erase("runs");
   CHECK_THROWS_AS(report_of(folder, study), Error);
 }
