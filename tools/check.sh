@@ -18,13 +18,14 @@ step_format() { tools/format.sh --check; }
 step_asan() {  # clang, address and undefined behaviour: kernel, all plugins, their tests
   cmake --preset asan >/dev/null
   cmake --build --preset asan
-  ctest --preset asan -LE "long|sdk" -E "^graphs"
+  ctest --preset asan -LE "long|sdk" -E "^graphs|study_scale|slurm"
 }
 
 step_asan_core() {  # what takes in bytes from outside: the kernel, files, devices
   cmake --preset asan >/dev/null
   cmake --build --preset asan --target kernel/all plugins/io/all plugins/devices/all
-  ctest --preset asan -LE "long|sdk" -R "^(kernel\.|io\.read|io\.write|devices\.)"
+  ctest --preset asan -LE "long|sdk" -R "^(kernel\.|io\.read|io\.write|devices\.)" \
+    -E study_scale  # about size, not about memory
 }
 
 step_asan_graphs() {  # the same stages once more, in whole graphs
@@ -47,7 +48,7 @@ step_tsan() {  # the kernel's threads, with a oneTBB that is itself instrumented
   }
   cmake --preset tsan -DTBB_DIR="$PWD/build/tsan-tbb/lib/cmake/TBB" >/dev/null
   cmake --build --preset tsan
-  ctest --preset tsan -LE long -E "slurm|^docs"
+  ctest --preset tsan -LE long -E "slurm|^docs|study_scale"
 }
 
 step_tidy() {  # the kernel, with the flags of the clang build
